@@ -1,0 +1,100 @@
+// A bias decides whether a receiver is lit by what one texel stores. It is a function of the receiver's plane, the texel's
+// ray and the stored depths, and never knows which parameterization it runs on.
+//
+// To add one: a file in bias/, an id and a case here, a row in src/shadow/bias.cpp (docs/add_a_bias.md).
+#ifndef GNOMON_BIAS_GLSL
+#define GNOMON_BIAS_GLSL
+
+#include "shared/geometry.glsl"
+#include "shared/lang.glsl"
+#include "shared/map.glsl"
+
+GNOMON_SHARED_BEGIN
+
+// What is shaded: a point and the unit geometric normal of its surface, turned to the light's side.
+struct Receiver {
+  vec3 posL;
+  vec3 normalL;
+};
+
+// One look-up: a texel, the ray through its centre, what it stores.
+struct Tap {
+  int layer;
+  ivec2 texel;
+  Ray ray;
+  float z1;  // nearest depth; 1 where the texel is empty
+};
+
+// Every knob of every method; names, units, ranges and defaults are in src/shadow/bias.cpp.
+struct BiasParams {
+  float constantOffset;  // metres
+  float slopeFactor;     // 1
+  float slopeOffset;     // metres
+  float adaptiveK;       // 1, of the scene's scale
+  int epsilonAt;         // kEpsilonAt*
+};
+
+const int kEpsilonAtFragment = 0;
+const int kEpsilonAtOccluder = 1;
+const int kEpsilonAtStored = 2;
+
+const int kBiasNone = 0;
+const int kBiasConstant = 1;
+const int kBiasSlope = 2;
+const int kBiasAdaptive = 3;
+
+// The receiver's plane where a ray meets it, as the map stores it. Where the ray does not meet the plane between the
+// near and the far end (grazing light) the receiver's own depth stands in.
+struct PlaneDepth {
+  float depth;
+  vec3 posL;
+  bool grazing;
+};
+
+GNOMON_FN PlaneDepth receiverPlaneDepth(ShadowMap map, int layer, Receiver receiver, Ray ray) {
+  PlaneDepth result;
+  float t = rayPlaneDistance(ray, receiver.posL, receiver.normalL);
+  result.posL = ray.origin + ray.dir * t;
+  result.depth = mapDepth(map, layer, result.posL);
+  result.grazing = !(t >= 0.0f && result.depth >= 0.0f && result.depth <= 1.0f);
+  if (result.grazing) {
+    result.posL = receiver.posL;
+    result.depth = mapDepth(map, layer, receiver.posL);
+  }
+  return result;
+}
+
+GNOMON_SHARED_END
+
+#include "shared/bias/adaptive.glsl"
+#include "shared/bias/constant.glsl"
+#include "shared/bias/none.glsl"
+#include "shared/bias/slope.glsl"
+
+GNOMON_SHARED_BEGIN
+
+// Whether the texel lights the receiver. An unknown method sets `known` to false, and the shader paints magenta.
+GNOMON_FN bool biasLit(int method, ShadowMap map, BiasParams params, Receiver receiver, Tap tap,
+                       GNOMON_OUT(bool) known) {
+  known = true;
+  if (tap.z1 >= 1.0f) return true;
+  switch (method) {
+    case kBiasNone:
+      return noneLit(map, receiver, tap);
+    case kBiasConstant:
+      return constantLit(map, params, receiver, tap);
+    case kBiasSlope:
+      return slopeLit(map, params, receiver, tap);
+    case kBiasAdaptive:
+      return adaptiveLit(map, params, receiver, tap);
+  }
+  known = false;
+  return false;
+}
+
+GNOMON_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(gnomon::glsl::BiasParams) == 20);
+#endif
+#endif

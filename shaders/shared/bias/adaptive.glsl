@@ -1,0 +1,35 @@
+// Adaptive bias: Dou, Yan, Kerzner, Dai, Wyman, "Adaptive Depth Bias for Shadow Maps", JCGT 3(4), 2014, section 2.
+//
+//        light               F   the receiver
+//         /|                 R   the ray through the centre of F's texel
+//        / |                 F'  where R meets the plane of F: what the map would hold there
+//       R  |                     if nothing but that plane were in the way
+//      /   |
+//   --F'---F-- plane         lit  <=>  d(F') - eps <= z1,   eps = f'(x) * sceneScale * K
+//
+// Differs from the paper: the text takes f' at the fragment, Algorithm 1 at F', the listings at the stored depth
+// (epsilonAt chooses); equation 6 has a wrong sign on b, which does not reach equation 10, and f' is taken here from
+// mapDepthSlope, so that it holds for every map.
+#ifndef GNOMON_BIAS_ADAPTIVE_GLSL
+#define GNOMON_BIAS_ADAPTIVE_GLSL
+
+#include "shared/bias.glsl"
+
+GNOMON_SHARED_BEGIN
+
+GNOMON_FN float adaptiveEpsilon(ShadowMap map, BiasParams params, Receiver receiver, Tap tap, vec3 occluderL) {
+  vec3 atL = occluderL;
+  if (params.epsilonAt == kEpsilonAtFragment) atL = receiver.posL;
+  if (params.epsilonAt == kEpsilonAtStored) {
+    atL = tap.ray.origin + tap.ray.dir * mapDistance(map, tap.layer, tap.ray, tap.z1);
+  }
+  return mapDepthSlope(map, tap.layer, atL, tap.ray.dir) * map.sceneScale * params.adaptiveK;
+}
+
+GNOMON_FN bool adaptiveLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
+  PlaneDepth occluder = receiverPlaneDepth(map, tap.layer, receiver, tap.ray);
+  return occluder.depth - adaptiveEpsilon(map, params, receiver, tap, occluder.posL) <= tap.z1;
+}
+
+GNOMON_SHARED_END
+#endif

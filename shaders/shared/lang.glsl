@@ -1,0 +1,39 @@
+// The glue that lets one text be GLSL and C++: the only file with #ifdef __cplusplus.
+// The dialect that all three compilers accept is in docs/shared_glsl.md.
+#ifndef GNOMON_LANG_GLSL
+#define GNOMON_LANG_GLSL
+
+#ifdef __cplusplus
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+// In C++ every shared struct and function lives in gnomon::glsl.
+#define GNOMON_SHARED_BEGIN \
+  namespace gnomon::glsl {  \
+  using namespace glm;
+#define GNOMON_SHARED_END }
+#define GNOMON_FN inline
+#define GNOMON_OUT(T) T&
+#define GNOMON_INOUT(T) T&
+
+GNOMON_SHARED_BEGIN
+inline float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
+inline uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
+inline float atan2(float y, float x) { return std::atan2(y, x); }
+GNOMON_SHARED_END
+
+#else
+
+#define GNOMON_SHARED_BEGIN
+#define GNOMON_SHARED_END
+#define GNOMON_FN
+#define GNOMON_OUT(T) out T
+#define GNOMON_INOUT(T) inout T
+#define atan2(y, x) atan(y, x)
+
+#endif
+#endif

@@ -1,0 +1,115 @@
+// A shadow map is an array of square layers and four functions (mapProject, mapTexelRay, mapDepth, mapDepthSlope) plus
+// the inverse of depth along a ray. Everything else, biases, filters, labels, knows maps only through these.
+//
+// Frame: L, the light's. Its origin is the light (for a directional light a point near the scene), units are metres.
+//
+//     uv (0,0) +-----> u          a texel's ray passes through the texel's centre;
+//              |  . . .           depth is 0 at its near end and 1 at its far end
+//              v  . . .           and grows strictly in between
+//
+// A parameterization is a case in each of the five switches, and a file of its own beside this one.
+#ifndef GNOMON_MAP_GLSL
+#define GNOMON_MAP_GLSL
+
+#include "shared/geometry.glsl"
+#include "shared/lang.glsl"
+
+GNOMON_SHARED_BEGIN
+
+const int kMapPlanar = 0;  // spot and directional: one clipFromLight matrix a layer
+const int kMaxMapLayers = 6;
+
+struct MapLayer {
+  mat4 clipFromLight;  // Vulkan clip space: y down, z in [0, w]
+  mat4 lightFromClip;
+};
+
+struct ShadowMap {
+  int kind;  // kMap*
+  int layerCount;
+  int side;          // texels
+  float sceneScale;  // metres: the diagonal of the scene's bounds
+  MapLayer layers[kMaxMapLayers];
+};
+
+struct MapPoint {
+  int layer;
+  vec2 uv;  // [0,1]^2 where covered
+  bool covered;
+};
+
+GNOMON_SHARED_END
+
+#include "shared/planar_map.glsl"
+
+GNOMON_SHARED_BEGIN
+
+// Which layer and where on it a point falls, and whether the map covers it at all.
+GNOMON_FN MapPoint mapProject(ShadowMap map, vec3 posL) {
+  switch (map.kind) {
+    case kMapPlanar:
+      return planarProject(map, posL);
+  }
+  MapPoint none;
+  none.layer = 0;
+  none.uv = vec2(0.0f, 0.0f);
+  none.covered = false;
+  return none;
+}
+
+// The light ray through uv of a layer. Its origin is where depth is 0.
+GNOMON_FN Ray mapTexelRay(ShadowMap map, int layer, vec2 uv) {
+  switch (map.kind) {
+    case kMapPlanar:
+      return planarTexelRay(map, layer, uv);
+  }
+  Ray none;
+  none.origin = vec3(0.0f, 0.0f, 0.0f);
+  none.dir = vec3(0.0f, 0.0f, -1.0f);
+  return none;
+}
+
+// The depth a layer stores for a point; outside [0,1] before the near end and beyond the far one.
+GNOMON_FN float mapDepth(ShadowMap map, int layer, vec3 posL) {
+  switch (map.kind) {
+    case kMapPlanar:
+      return planarDepth(map, layer, posL);
+  }
+  return 0.0f;
+}
+
+// d depth / d metre at a point, along the unit direction of a texel's ray: f'(x) of Dou et al. 2014, equation 2.
+GNOMON_FN float mapDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) {
+  switch (map.kind) {
+    case kMapPlanar:
+      return planarDepthSlope(map, layer, posL, rayDir);
+  }
+  return 0.0f;
+}
+
+// Metres from the ray's origin to where the map's depth is `depth`: the inverse of mapDepth along a texel's ray.
+GNOMON_FN float mapDistance(ShadowMap map, int layer, Ray ray, float depth) {
+  switch (map.kind) {
+    case kMapPlanar:
+      return planarDistance(map, layer, ray, depth);
+  }
+  return 0.0f;
+}
+
+// The texel that holds uv; uv = 1 belongs to the last one.
+GNOMON_FN ivec2 mapTexel(ShadowMap map, vec2 uv) {
+  float side = float(map.side);
+  return ivec2(clamp(int(floor(uv.x * side)), 0, map.side - 1), clamp(int(floor(uv.y * side)), 0, map.side - 1));
+}
+
+GNOMON_FN vec2 mapTexelCenter(ShadowMap map, ivec2 texel) {
+  return vec2((float(texel.x) + 0.5f) / float(map.side), (float(texel.y) + 0.5f) / float(map.side));
+}
+
+GNOMON_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(gnomon::glsl::ShadowMap) == 16 + 6 * 128);
+static_assert(offsetof(gnomon::glsl::ShadowMap, layers) == 16);
+#endif
+#endif

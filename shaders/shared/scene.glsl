@@ -1,0 +1,70 @@
+// What the shaders know of a scene: the tables SceneBuffers (src/scene/scene_buffers.h) fills.
+#ifndef GNOMON_SCENE_GLSL
+#define GNOMON_SCENE_GLSL
+
+#include "shared/lang.glsl"
+#include "shared/texture.glsl"
+
+GNOMON_SHARED_BEGIN
+
+// Binding numbers of the scene, the same in every shader that reads it.
+const int kBindPositions = 0;
+const int kBindIndices = 1;
+const int kBindInstances = 2;
+const int kBindUvs = 3;
+const int kBindMaterials = 4;
+const int kBindTextures = 5;
+const int kBindTexels = 6;
+const int kBindNormals = 7;
+const int kBindFirstFree = 8;  // a shader's own bindings start here
+
+struct SceneInstance {
+  mat4 worldFromMesh;
+  uint firstIndex;    // of its mesh, in the index array
+  uint vertexOffset;  // added to every index
+  uint material;
+  uint mirrored;  // 1: the matrix turns the winding round
+};
+
+struct SceneMaterial {
+  vec4 baseColor;  // linear
+  float alphaCutoff;
+  int texture;     // -1: none
+  int alphaMask;   // 1: holes where alpha is below the cutoff
+  int doubleSided;
+};
+
+// A pixel of the G-buffer: which triangle of which instance. The first word is 0 where nothing was drawn.
+struct PrimitiveId {
+  uint instancePlusOne;
+  uint primitive;
+};
+
+// The camera as the shaders use it. A pixel's ray starts at the eye; pixel (0,0) is the upper left one.
+struct CameraView {
+  mat4 clipFromWorld;
+  vec3 eyeW;
+  vec3 rightW;    // unit axes of the eye, in the world
+  vec3 upW;
+  vec3 forwardW;
+  float tanHalfX;  // half the picture's width and height at distance 1
+  float tanHalfY;
+  int width;  // pixels
+  int height;
+};
+
+// Direction (not unit) from the eye through the pixel's centre.
+GNOMON_FN vec3 pixelDirection(CameraView camera, int x, int y) {
+  float sx = (2.0f * (float(x) + 0.5f) / float(camera.width) - 1.0f) * camera.tanHalfX;
+  float sy = (1.0f - 2.0f * (float(y) + 0.5f) / float(camera.height)) * camera.tanHalfY;
+  return camera.forwardW + camera.rightW * sx + camera.upW * sy;
+}
+
+GNOMON_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(gnomon::glsl::SceneInstance) == 80);
+static_assert(sizeof(gnomon::glsl::SceneMaterial) == 32);
+static_assert(sizeof(gnomon::glsl::CameraView) == 128 && offsetof(gnomon::glsl::CameraView, height) == 124);
+#endif
+#endif

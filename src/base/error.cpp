@@ -1,0 +1,11 @@
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+WorldError fileError(const std::string& path, const std::string& what, const std::string& remedy) {
+  return WorldError(fmt::format("{}: {}; {}", path, what, remedy));
+}
+
+}  // namespace gnomon

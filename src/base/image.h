@@ -1,0 +1,51 @@
+#pragma once
+// Image files through OpenImageIO: EXR for data (32-bit float, linear), PNG for people (8-bit).
+// Rows run from the top down, channels are interleaved.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace gnomon {
+
+template <typename T>
+struct Image {
+  int width = 0;     // pixels
+  int height = 0;    // pixels
+  int channels = 0;  // interleaved
+  std::vector<T> values;
+
+  Image() = default;
+  Image(int w, int h, int c, T fill = T{})
+      : width(w), height(h), channels(c), values(static_cast<size_t>(w) * h * c, fill) {}
+
+  T* at(int x, int y) { return values.data() + (static_cast<size_t>(y) * width + x) * channels; }
+  const T* at(int x, int y) const { return values.data() + (static_cast<size_t>(y) * width + x) * channels; }
+};
+
+using Image8 = Image<uint8_t>;
+using ImageF = Image<float>;
+
+// 1 (grey), 3 (RGB) or 4 (RGBA) channels, values as they are to be shown. Throws WorldError.
+void writePng(const std::filesystem::path& path, const Image8& image);
+
+// Any number of channels, 32-bit float, names such as {"Y"} or {"R","G","B"}. Throws WorldError.
+void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames);
+
+// Any file OpenImageIO reads, as float (8-bit files give [0,1], not linearized). Throws WorldError.
+ImageF readImage(const std::filesystem::path& path);
+
+// Decodes an image held in memory (PNG, JPEG) to RGBA8; sRGB values stay sRGB. Throws WorldError that names `what`.
+Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what);
+
+// IEC 61966-2-1.
+float srgbFromLinear(float linear);
+float linearFromSrgb(float srgb);
+
+// Linear RGB (3 channels) to sRGB bytes, clamped.
+Image8 toSrgb8(const ImageF& linear);
+
+}  // namespace gnomon

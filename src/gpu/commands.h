@@ -1,0 +1,101 @@
+#pragma once
+// One command buffer, recorded, submitted and waited for. A pass is one call that names its program and everything it
+// binds; between two passes stands one barrier that says who wrote and who reads.
+
+#include "gpu/program.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::gpu {
+
+// A resource for one binding of a program: a storage buffer, a storage image, or a sampled image (texelFetch).
+struct Binding {
+  uint32_t index;
+  const Buffer* buffer = nullptr;
+  const Image* image = nullptr;
+  Binding(uint32_t i, const Buffer& b) : index(i), buffer(&b) {}
+  Binding(uint32_t i, const Image& im) : index(i), image(&im) {}
+};
+
+struct ColorTarget {
+  const Image* image = nullptr;
+  std::optional<VkClearColorValue> clear;  // absent: keep what is there
+};
+
+struct RenderTargets {
+  std::vector<ColorTarget> colors;
+  const Image* depth = nullptr;
+  std::optional<float> clearDepth;  // absent: keep what is there
+  std::optional<uint32_t> layer;    // draw to this layer only; absent: the whole view (layer 0, or multiview)
+  uint32_t viewMask = 0;
+};
+
+struct StageTime {
+  std::string name;
+  double gpuMs = 0.0;  // between two timestamps
+};
+
+struct Submission {
+  double wallMs = 0.0;  // submit to the end of the wait
+  std::vector<StageTime> stages;
+};
+
+class Commands {
+ public:
+  Commands(const Device& device, const char* name);
+  ~Commands();
+  Commands(const Commands&) = delete;
+  Commands& operator=(const Commands&) = delete;
+
+  // A named stretch with timestamps around it; stages do not nest.
+  void beginStage(const char* name);
+  void endStage();
+
+  // Everything before is visible to everything after. `words`: "shadow map writes depth -> visibility fetches it".
+  void barrier(const char* words);
+
+  // Checks that `push` has the size the program declares and that exactly its bindings are given.
+  void dispatch(const ComputeProgram& program, glm::uvec3 groupCount, std::span<const std::byte> push,
+                std::initializer_list<Binding> bindings);
+
+  // Viewport and scissor cover the targets; culling is off until setCulling.
+  void beginRendering(const RenderTargets& targets);
+  void bind(const GraphicsProgram& program, std::span<const std::byte> push, std::initializer_list<Binding> bindings);
+  void setCulling(VkCullModeFlags mode, VkFrontFace front);
+  void bindIndexBuffer(const Buffer& buffer);  // 32-bit indices
+  void drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex, int32_t vertexOffset,
+                   uint32_t firstInstance);
+  void draw(uint32_t vertexCount, uint32_t instanceCount, uint32_t firstVertex, uint32_t firstInstance);
+  void endRendering();
+
+  void fill(const Buffer& buffer, uint32_t word);
+  void copy(const Buffer& from, const Buffer& to, VkDeviceSize size);
+  void copy(const Image& from, const Buffer& to);  // all layers, tightly packed
+
+  VkCommandBuffer handle() const { return commands_; }
+
+  // Once. Throws WorldError when the device is lost.
+  Submission submitAndWait();
+
+ private:
+  const Device& device_;
+  OwnedChild<VkCommandPool, vkDestroyCommandPool> pool_;
+  OwnedChild<VkQueryPool, vkDestroyQueryPool> queries_;
+  OwnedChild<VkFence, vkDestroyFence> fence_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  std::vector<std::string> stageNames_;
+  bool inStage_ = false;
+  bool inRendering_ = false;
+};
+
+template <typename T>
+std::span<const std::byte> asPush(const T& value) {
+  return std::as_bytes(std::span<const T, 1>(&value, 1));
+}
+
+}  // namespace gnomon::gpu

@@ -1,0 +1,75 @@
+#pragma once
+// The Vulkan 1.3 device: one instance, one queue, the features Gnomon needs, the messages validation gave.
+//
+// Choice: --device NAME takes the first device whose name contains NAME (case ignored); without it the first
+// discrete GPU, then integrated, then a CPU device (lavapipe). GNOMON_DEVICE in the environment acts as --device.
+
+#include "gpu/vulkan.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::gpu {
+
+struct DeviceOptions {
+  std::string name;         // part of a device name; empty chooses
+  bool validation = false;  // also synchronization validation; or GNOMON_VALIDATION=1 in the environment
+};
+
+struct DeviceInfo {
+  std::string name;
+  std::string driver;      // name and version text of the driver
+  std::string apiVersion;  // "1.3.230"
+  bool isCpu = false;
+  float timestampPeriod = 1.0f;  // nanoseconds a tick
+  uint32_t maxImageDimension2D = 0;
+  uint64_t maxStorageBufferBytes = 0;
+  uint64_t maxAllocationBytes = 0;
+  bool orderedAttachmentAccess = false;  // VK_EXT_rasterization_order_attachment_access, colour
+};
+
+class Device {
+ public:
+  // Throws WorldError: no device, none of that name (lists them), or a required feature is missing (names it).
+  static std::unique_ptr<Device> create(const DeviceOptions& options);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const DeviceInfo& info() const { return info_; }
+  VkDevice handle() const { return device_.get(); }
+  VkPhysicalDevice physical() const { return physical_; }
+  VkQueue queue() const { return queue_; }
+  uint32_t queueFamily() const { return queueFamily_; }
+  VkPipelineCache pipelineCache() const { return pipelineCache_.get(); }
+
+  // Every warning and error of the validation layers so far. Tests fail on any.
+  const std::vector<std::string>& validationMessages() const;
+
+  // A memory type with the wanted properties; falls back to fewer of the preferred ones. Throws WorldError.
+  uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
+
+  void nameObject(VkObjectType type, uint64_t handle, const char* name) const;
+
+ private:
+  Device() = default;
+  struct Messages;
+  std::unique_ptr<Messages> messages_;
+  Owned<VkInstance, vkDestroyInstance> instance_;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  DeviceInfo info_;
+  Owned<VkDevice, vkDestroyDevice> device_;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  uint32_t queueFamily_ = 0;
+  OwnedChild<VkPipelineCache, vkDestroyPipelineCache> pipelineCache_;
+  VkPhysicalDeviceMemoryProperties memory_{};
+
+  friend struct DeviceBuilder;
+};
+
+// Names of all devices, in the order Vulkan lists them; empty where there is no driver.
+std::vector<DeviceInfo> listDevices();
+
+}  // namespace gnomon::gpu

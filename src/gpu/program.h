@@ -1,0 +1,85 @@
+#pragma once
+// Programs: shaders plus what their SPIR-V says of them (bindings, push constants), so that a pass that binds the
+// wrong thing is refused at the call and not by a black picture.
+//
+// All bindings are in set 0 and are pushed (VK_KHR_push_descriptor). Every binding the SPIR-V declares must be given
+// at each call: lavapipe 22.3 crashes on descriptors that were never written.
+
+#include "gpu/resources.h"
+#include "gpu/shader_compiler.h"
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace gnomon::gpu {
+
+// One specialization constant: `layout(constant_id = id) const int name`. Booleans are 0 and 1.
+struct Specialization {
+  uint32_t id = 0;
+  int32_t value = 0;
+};
+
+struct ProgramInterface {
+  struct Binding {
+    uint32_t index = 0;
+    VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    VkShaderStageFlags stages = 0;
+    std::string name;
+  };
+  std::vector<Binding> bindings;  // by index, stages merged
+  uint32_t pushConstantBytes = 0;
+  VkShaderStageFlags pushConstantStages = 0;
+};
+
+// What a shader's SPIR-V declares in set 0 and as push constants.
+ProgramInterface reflect(const std::vector<uint32_t>& spirv, VkShaderStageFlagBits stage);
+
+class Program {
+ public:
+  VkPipeline pipeline() const { return pipeline_.get(); }
+  VkPipelineLayout layout() const { return layout_.get(); }
+  VkPipelineBindPoint bindPoint() const { return bindPoint_; }
+  const ProgramInterface& interface() const { return interface_; }
+  const std::string& name() const { return name_; }
+
+ protected:
+  std::string name_;
+  ProgramInterface interface_;
+  VkPipelineBindPoint bindPoint_ = VK_PIPELINE_BIND_POINT_COMPUTE;
+  OwnedChild<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> setLayout_;
+  OwnedChild<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
+  OwnedChild<VkPipeline, vkDestroyPipeline> pipeline_;
+};
+
+class ComputeProgram : public Program {
+ public:
+  ComputeProgram() = default;
+  ComputeProgram(const Device& device, const ShaderSource& shader,
+                 const std::vector<Specialization>& specializations = {});
+};
+
+struct GraphicsDesc {
+  const char* name = nullptr;
+  ShaderSource vertex;
+  ShaderSource fragment;               // an empty path: depth only
+  std::vector<Specialization> specializations;
+  std::vector<VkFormat> colorFormats;  // of the attachments
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+  VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
+  bool depthWrite = true;
+  bool depthClamp = false;
+  uint32_t viewMask = 0;                        // multiview
+  bool minBlend = false;                        // colour attachments keep the minimum
+  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+};
+
+// Vertices are pulled from storage buffers by gl_VertexIndex; there is no vertex input. Viewport, scissor, cull mode and
+// front face are dynamic.
+class GraphicsProgram : public Program {
+ public:
+  GraphicsProgram() = default;
+  GraphicsProgram(const Device& device, const GraphicsDesc& desc);
+};
+
+}  // namespace gnomon::gpu

@@ -1,0 +1,94 @@
+#pragma once
+// Buffers and images that own their memory. Every image lives in VK_IMAGE_LAYOUT_GENERAL.
+
+#include "gpu/device.h"
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace gnomon::gpu {
+
+enum class Memory {
+  Device,    // fast for the GPU; filled and read through a staging copy
+  Readback,  // host visible and cached: what the CPU reads
+};
+
+struct BufferDesc {
+  const char* name = nullptr;  // mandatory
+  VkDeviceSize size = 0;       // bytes; 0 is made 4, so that an empty array still binds
+  VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;  // transfer source and destination are added
+  Memory memory = Memory::Device;
+};
+
+class Buffer {
+ public:
+  Buffer() = default;
+  Buffer(const Device& device, const BufferDesc& desc);
+  VkBuffer handle() const { return buffer_.get(); }
+  VkDeviceSize size() const { return size_; }
+  // Mapped memory: always for Readback, and for Device where the device's memory is host visible; else nullptr.
+  std::byte* mapped() const { return mapped_; }
+
+ private:
+  OwnedChild<VkBuffer, vkDestroyBuffer> buffer_;
+  OwnedChild<VkDeviceMemory, vkFreeMemory> memory_;
+  VkDeviceSize size_ = 0;
+  std::byte* mapped_ = nullptr;
+};
+
+struct ImageDesc {
+  const char* name = nullptr;  // mandatory
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  uint32_t width = 1, height = 1;  // texels
+  uint32_t layerCount = 1;         // the view is 2D_ARRAY when `array`, else 2D
+  bool array = false;
+  VkImageUsageFlags usage = 0;  // transfer source and destination are added
+};
+
+class Image {
+ public:
+  Image() = default;
+  // Brings the image to GENERAL before it returns.
+  Image(const Device& device, const ImageDesc& desc);
+  VkImage handle() const { return image_.get(); }
+  VkImageView view() const { return view_.get(); }            // all layers
+  VkImageView layerView(uint32_t layer) const { return layerViews_[layer].get(); }  // one layer, 2D
+  const ImageDesc& desc() const { return desc_; }
+  VkImageAspectFlags aspect() const;
+
+ private:
+  OwnedChild<VkImage, vkDestroyImage> image_;
+  OwnedChild<VkDeviceMemory, vkFreeMemory> memory_;
+  OwnedChild<VkImageView, vkDestroyImageView> view_;
+  std::vector<OwnedChild<VkImageView, vkDestroyImageView>> layerViews_;
+  ImageDesc desc_;
+};
+
+// Copies bytes in and waits.
+void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> bytes);
+
+// Copies `size` bytes out (all when 0) and waits.
+std::vector<std::byte> download(const Device& device, const Buffer& buffer, VkDeviceSize size = 0);
+
+// All layers, tightly packed, layer after layer, rows from the top. Depth images give their 32-bit floats.
+std::vector<std::byte> download(const Device& device, const Image& image);
+
+template <typename T>
+Buffer createBufferWith(const Device& device, const char* name, const std::vector<T>& values,
+                        VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {
+  Buffer buffer(device, {.name = name, .size = values.size() * sizeof(T), .usage = usage});
+  if (!values.empty()) upload(device, buffer, std::as_bytes(std::span(values)));
+  return buffer;
+}
+
+template <typename T, typename Resource>
+std::vector<T> downloadAs(const Device& device, const Resource& resource) {
+  const std::vector<std::byte> bytes = download(device, resource);
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  return values;
+}
+
+}  // namespace gnomon::gpu

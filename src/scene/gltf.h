@@ -1,0 +1,22 @@
+#pragma once
+// glTF 2.0 in and out (.gltf and .glb) through tinygltf: triangles, node transforms, instances by shared meshes,
+// doubleSided, alpha masks, base colours, KHR_lights_punctual, perspective cameras.
+
+#include "scene/scene.h"
+
+#include <filesystem>
+
+namespace gnomon {
+
+// Throws WorldError with one line for anything malformed: never crashes, hangs or asks for memory that the file
+// does not back.
+Scene loadGltf(const std::filesystem::path& path);
+
+// The same from bytes in memory, .glb or .gltf text with embedded buffers; `name` stands for the path in messages.
+// This is what the fuzzer drives.
+Scene loadGltfFromMemory(const unsigned char* bytes, size_t size, const std::string& name);
+
+// Writes .glb, whole or not at all. Loading it again gives an equal scene: the same floats, lights and cameras.
+void saveGlb(const Scene& scene, const std::filesystem::path& path);
+
+}  // namespace gnomon

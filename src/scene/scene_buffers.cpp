@@ -1,0 +1,81 @@
+#include "scene/scene_buffers.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+struct MeshRange {
+  uint32_t firstIndex = 0;
+  uint32_t vertexOffset = 0;
+};
+
+glsl::SceneMaterial toGpu(const Material& material) {
+  return {.baseColor = material.baseColor,
+          .alphaCutoff = material.alphaCutoff,
+          .texture = material.baseColorTexture,
+          .alphaMask = material.alphaMode == AlphaMode::Mask ? 1 : 0,
+          .doubleSided = material.doubleSided ? 1 : 0};
+}
+
+template <typename T>
+void append(std::vector<T>& all, const std::vector<T>& some) {
+  all.insert(all.end(), some.begin(), some.end());
+}
+
+}  // namespace
+
+SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
+  std::vector<glm::vec3> positions, normals;
+  std::vector<glm::vec2> uvs;
+  std::vector<uint32_t> indices;
+  std::vector<MeshRange> ranges;
+  for (const Mesh& mesh : scene.meshes) {
+    ranges.push_back({.firstIndex = static_cast<uint32_t>(indices.size()),
+                      .vertexOffset = static_cast<uint32_t>(positions.size())});
+    append(positions, mesh.positions);
+    append(normals, mesh.normals);
+    append(uvs, mesh.uvs);
+    append(indices, mesh.indices);
+  }
+
+  SceneBuffers buffers;
+  std::vector<glsl::SceneInstance> instances;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const Material& material = scene.materials[mesh.material];
+    const MeshRange& range = ranges[instance.mesh];
+    const bool mirrored = glm::determinant(glm::mat3(instance.worldFromMesh)) < 0.0f;
+    buffers.draws.push_back({.indexCount = static_cast<uint32_t>(mesh.indices.size()),
+                             .firstIndex = range.firstIndex,
+                             .vertexOffset = static_cast<int32_t>(range.vertexOffset),
+                             .instance = static_cast<uint32_t>(instances.size()),
+                             .masked = material.alphaMode == AlphaMode::Mask,
+                             .doubleSided = material.doubleSided,
+                             .solid = isSolid(scene, mesh),
+                             .mirrored = mirrored});
+    instances.push_back({.worldFromMesh = instance.worldFromMesh,
+                         .firstIndex = range.firstIndex,
+                         .vertexOffset = range.vertexOffset,
+                         .material = static_cast<uint32_t>(mesh.material),
+                         .mirrored = mirrored ? 1u : 0u});
+  }
+  std::ranges::stable_sort(buffers.draws, {}, &Draw::masked);
+
+  std::vector<glsl::SceneMaterial> materials;
+  for (const Material& material : scene.materials) materials.push_back(toGpu(material));
+
+  buffers.positions = gpu::createBufferWith(device, "positions", positions);
+  buffers.normals = gpu::createBufferWith(device, "normals", normals);
+  buffers.uvs = gpu::createBufferWith(device, "uvs", uvs);
+  buffers.indices = gpu::createBufferWith(device, "indices", indices,
+                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  buffers.instances = gpu::createBufferWith(device, "instances", instances);
+  buffers.materials = gpu::createBufferWith(device, "materials", materials);
+  buffers.textures = gpu::createBufferWith(device, "textures", scene.textures);
+  buffers.texels = gpu::createBufferWith(device, "texels", scene.texels);
+  return buffers;
+}
+
+}  // namespace gnomon

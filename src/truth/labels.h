@@ -1,0 +1,48 @@
+#pragma once
+// Why a shadow map is wrong at a pixel, by exact rays.
+//
+//   agree        prediction = truth
+//   acne         predicted shadow where there is light, and the surface is continuous, seen from the light, between the
+//                texel centre's ray and the pixel's: nothing there casts a shadow. The bias failed
+//   leak         predicted light where there is shadow, although the first hit along the texel centre's ray lies before
+//                the receiver's plane: the map held the occluder, the bias stepped over it
+//   edge_shadow  predicted shadow where there is light, across a silhouette: the map is too coarse there
+//   edge_light   predicted light where there is shadow, and no leak
+//   uncovered    the map does not cover the pixel
+//
+// Acne and leak are what a bias is answerable for. "Before" means by more than the end margin of the truth's rays.
+
+#include "truth/visibility.h"
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+enum class Label : uint8_t { NotScored, Agree, Acne, Leak, EdgeShadow, EdgeLight, Uncovered };
+inline constexpr int kLabelCount = 7;
+const char* labelName(Label label);  // "agree", "edge_shadow", ...
+
+// What an unfiltered map said of a pixel.
+enum class Verdict : uint8_t { NotAsked, Lit, Shadow, Uncovered };
+
+struct LabelImage {
+  std::vector<Label> labels;  // one a pixel
+  std::array<size_t, kLabelCount> counts{};
+  size_t count(Label label) const { return counts[static_cast<size_t>(label)]; }
+};
+
+// `texelRay(pixel)`: the light ray through the centre of the texel that decided the pixel, in W. Asked for wrong pixels
+// only, from many threads at once.
+LabelImage labelPixels(const Tracer& tracer, const LightModel& light, const Receivers& receivers, const Truth& truth,
+                       std::span<const Verdict> verdicts, const std::function<RayD(size_t pixel)>& texelRay);
+
+// Whether the surface first hit stays in one piece, seen from the light, between two light rays: halves the stretch
+// towards the larger unexplained jump of the first-hit distance kBisectionSteps times (to a thousandth of a texel, when
+// the two rays are at most a texel's half diagonal apart); a jump that is still there is a silhouette.
+inline constexpr int kBisectionSteps = 10;
+bool continuousBetween(const Tracer& tracer, const RayD& a, const RayD& b, double margin);
+
+}  // namespace gnomon

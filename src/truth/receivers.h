@@ -1,0 +1,50 @@
+#pragma once
+// What each pixel sees, in double precision: the point on the primitive that the G-buffer names, along the pixel's ray,
+// and whether a light scores it.
+
+#include "scene/scene.h"
+#include "truth/tracer.h"
+
+#include "shared/scene.glsl"
+
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+// A light as truth and maps share it. A directional light's rays all run along directionW.
+struct LightModel {
+  LightType type = LightType::Point;
+  glm::dvec3 positionW{0.0};          // point, spot
+  glm::dvec3 directionW{0, -1, 0};    // unit; spot: the axis
+  double outerConeRad = 0.0;          // spot: half angle; pixels outside are dark and not scored
+};
+
+enum class PixelState : uint8_t {
+  Empty,        // no surface
+  FacingAway,   // the light is on the other side of the surface from the camera (or exactly in its plane)
+  OutsideCone,  // a spot light does not reach it
+  Scored,
+};
+
+struct SurfaceSample {
+  glm::dvec3 positionW{0.0};  // on the primitive: barycentric weights clamped to the triangle
+  glm::dvec3 normalW{0.0};    // unit, turned to the light's side
+  Primitive primitive;
+};
+
+struct Receivers {
+  int width = 0;
+  int height = 0;
+  std::vector<PixelState> states;      // one a pixel, rows from the top
+  std::vector<SurfaceSample> samples;  // one a pixel; meaningless where Empty
+  size_t scored = 0;
+  size_t facingAway = 0;
+  size_t outsideCone = 0;
+};
+
+// `ids`: width*height G-buffer pixels. All cores.
+Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera, const LightModel& light,
+                           std::span<const glsl::PrimitiveId> ids);
+
+}  // namespace gnomon
