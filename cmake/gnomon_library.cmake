@@ -7,7 +7,7 @@
 # -ffp-contract=off: the shared mathematics must give the same bits in C++ and in the shaders.
 add_library(gnomon_options INTERFACE)
 target_compile_options(gnomon_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-float-conversion -Werror
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-float-conversion -Wno-missing-field-initializers -Werror
   -ffp-contract=off)
 target_compile_definitions(gnomon_options INTERFACE
   GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR GLM_ENABLE_EXPERIMENTAL)

@@ -1,6 +1,7 @@
 #include "scene/scene_buffers.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon {
 
@@ -17,6 +18,16 @@ glsl::SceneMaterial toGpu(const Material& material) {
           .texture = material.baseColorTexture,
           .alphaMask = material.alphaMode == AlphaMode::Mask ? 1 : 0,
           .doubleSided = material.doubleSided ? 1 : 0};
+}
+
+Bounds instanceBounds(const Mesh& mesh, const glm::mat4& worldFromMesh) {
+  Bounds bounds{.lower = glm::vec3(INFINITY), .upper = glm::vec3(-INFINITY)};
+  for (const glm::vec3& position : mesh.positions) {
+    const glm::vec3 posW(worldFromMesh * glm::vec4(position, 1.0f));
+    bounds.lower = glm::min(bounds.lower, posW);
+    bounds.upper = glm::max(bounds.upper, posW);
+  }
+  return bounds;
 }
 
 template <typename T>
@@ -54,7 +65,8 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
                              .masked = material.alphaMode == AlphaMode::Mask,
                              .doubleSided = material.doubleSided,
                              .solid = isSolid(scene, mesh),
-                             .mirrored = mirrored});
+                             .mirrored = mirrored,
+                             .boundsW = instanceBounds(mesh, instance.worldFromMesh)});
     instances.push_back({.worldFromMesh = instance.worldFromMesh,
                          .firstIndex = range.firstIndex,
                          .vertexOffset = range.vertexOffset,

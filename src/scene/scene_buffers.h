@@ -20,6 +20,7 @@ struct Draw {
   bool doubleSided = false;  // the camera sees both sides
   bool solid = false;        // closed and not doubleSided: its back faces may be culled from a map
   bool mirrored = false;     // the instance's matrix turns the winding round
+  Bounds boundsW;            // metres
 };
 
 struct SceneBuffers {

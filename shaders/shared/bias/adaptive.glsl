@@ -13,7 +13,7 @@
 #ifndef GNOMON_BIAS_ADAPTIVE_GLSL
 #define GNOMON_BIAS_ADAPTIVE_GLSL
 
-#include "shared/bias.glsl"
+#include "shared/lang.glsl"
 
 GNOMON_SHARED_BEGIN
 

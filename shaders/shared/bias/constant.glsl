@@ -3,7 +3,7 @@
 #ifndef GNOMON_BIAS_CONSTANT_GLSL
 #define GNOMON_BIAS_CONSTANT_GLSL
 
-#include "shared/bias.glsl"
+#include "shared/lang.glsl"
 
 GNOMON_SHARED_BEGIN
 

@@ -2,7 +2,7 @@
 #ifndef GNOMON_BIAS_NONE_GLSL
 #define GNOMON_BIAS_NONE_GLSL
 
-#include "shared/bias.glsl"
+#include "shared/lang.glsl"
 
 GNOMON_SHARED_BEGIN
 

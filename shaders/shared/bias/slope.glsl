@@ -6,8 +6,8 @@
 #ifndef GNOMON_BIAS_SLOPE_GLSL
 #define GNOMON_BIAS_SLOPE_GLSL
 
-#include "shared/bias.glsl"
 #include "shared/bias/constant.glsl"
+#include "shared/lang.glsl"
 
 GNOMON_SHARED_BEGIN
 

@@ -1,0 +1,19 @@
+// A vertex to the clip space of one layer of a planar map, by the very steps with which the receiver is projected.
+#include "shared/shade.glsl"
+
+layout(scalar, binding = kBindPositions) readonly buffer Positions { vec3 positions[]; };
+layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
+layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
+layout(scalar, binding = kBindMap) readonly buffer Map { MapUniforms uniforms; };
+
+layout(push_constant, scalar) uniform Push { int layer; };
+
+layout(location = 0) out vec2 uv;
+layout(location = 1) out flat uint instanceIndex;
+
+void main() {
+  instanceIndex = gl_InstanceIndex;
+  uv = uvs[gl_VertexIndex];
+  vec3 posW = vec3(instances[gl_InstanceIndex].worldFromMesh * vec4(positions[gl_VertexIndex], 1.0f));
+  gl_Position = uniforms.map.layers[layer].clipFromLight * vec4(lightFromWorld(uniforms.frame, posW), 1.0f);
+}

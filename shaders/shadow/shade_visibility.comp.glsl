@@ -1,0 +1,72 @@
+// One visibility shader for every map and every bias: G-buffer pixel -> receiver -> tap -> lit or not.
+//
+// The method is a specialization constant, so that each pipeline holds one bias only. kDiagnose also writes
+// what decided the pixel; timings are taken without it.
+#include "shared/shade.glsl"
+
+#include "scene/surface_fetch.glsl"
+
+layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
+
+layout(constant_id = 0) const int kMethod = kBiasNone;
+layout(constant_id = 1) const int kDiagnose = 0;
+
+layout(scalar, binding = kBindMap) readonly buffer Map { MapUniforms uniforms; };
+layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
+layout(binding = kBindPrimitiveIds) uniform utexture2D primitiveIds;
+layout(scalar, binding = kBindShade) readonly buffer Shade { ShadeUniforms shade; };
+layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
+layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagnosis diagnosis[]; };
+
+Tap fetchTap(int layer, ivec2 texel) {
+  Tap tap;
+  tap.layer = layer;
+  tap.texel = texel;
+  tap.ray = mapTexelRay(uniforms.map, layer, mapTexelCenter(uniforms.map, texel));
+  tap.z1 = texelFetch(mapDepthLayers, ivec3(texel, layer), 0).x;
+  return tap;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (pixel.x >= shade.camera.width || pixel.y >= shade.camera.height) return;
+  uint index = uint(pixel.y * shade.camera.width + pixel.x);
+
+  uvec2 named = texelFetch(primitiveIds, pixel, 0).xy;
+  PrimitiveId id;
+  id.instancePlusOne = named.x;
+  id.primitive = named.y;
+  uint flags = 0u;
+  uint texelWord = 0u;
+  float result = 1.0f;
+  if (id.instancePlusOne != 0u) {
+    SurfacePoint surface = fetchSurface(shade.camera, pixel, id);
+    float lightSide = dot(surface.normal, towardsLight(shade, surface.position));
+    float cameraSide = dot(surface.normal, shade.camera.eyeW - surface.position);
+    result = 0.0f;
+    if (lightSide * cameraSide > 0.0f) {
+      flags = kPixelShaded;
+      Receiver receiver;
+      receiver.posL = lightFromWorld(uniforms.frame, surface.position);
+      receiver.normalL = directionFromWorld(uniforms.frame, lightSide > 0.0f ? surface.normal : -surface.normal);
+      MapPoint point = mapProject(uniforms.map, receiver.posL);
+      result = 1.0f;
+      if (point.covered) {
+        Tap tap = fetchTap(point.layer, mapTexel(uniforms.map, point.uv));
+        bool known;
+        bool lit = biasLit(kMethod, uniforms.map, shade.bias, receiver, tap, known);
+        result = known ? (lit ? 1.0f : 0.0f) : kUnknownVisibility;
+        if (kDiagnose == 1) {
+          flags |= kPixelCovered | (lit ? kPixelLit : 0u) | (known ? 0u : kPixelUnknown);
+          if (receiverPlaneDepth(uniforms.map, tap.layer, receiver, tap.ray).grazing) flags |= kPixelGrazing;
+          texelWord = packTexel(tap.layer, tap.texel);
+        }
+      }
+    }
+  }
+  visibility[index] = result;
+  if (kDiagnose == 1) {
+    diagnosis[index].texel = texelWord;
+    diagnosis[index].flags = flags;
+  }
+}

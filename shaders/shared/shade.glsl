@@ -1,0 +1,68 @@
+// What the visibility pass reads and writes.
+#ifndef GNOMON_SHADE_GLSL
+#define GNOMON_SHADE_GLSL
+
+#include "shared/bias.glsl"
+#include "shared/lang.glsl"
+#include "shared/light_frame.glsl"
+#include "shared/map.glsl"
+#include "shared/scene.glsl"
+
+GNOMON_SHARED_BEGIN
+
+const int kBindMap = kBindFirstFree;           // MapUniforms
+const int kBindMapDepth = kBindFirstFree + 1;  // the map's layers
+const int kBindPrimitiveIds = kBindFirstFree + 2;
+const int kBindShade = kBindFirstFree + 3;        // ShadeUniforms
+const int kBindVisibility = kBindFirstFree + 4;   // float a pixel
+const int kBindDiagnosis = kBindFirstFree + 5;    // PixelDiagnosis a pixel
+const int kBindRadiance = kBindFirstFree + 6;     // vec3 a pixel
+const int kShadeGroupSide = 8;                    // pixels; the work group is square
+
+struct MapUniforms {
+  LightFrame frame;
+  ShadowMap map;
+};
+
+struct ShadeUniforms {
+  CameraView camera;
+  BiasParams bias;
+  vec3 lightW;       // position, or for a directional light the unit direction towards it
+  float positional;  // 1: lightW is a position, 0: a direction
+  vec3 coneAxisW;    // unit, the way a spot light shines
+  float coneCos;     // of its half angle; -1 where there is no cone
+  vec3 lightColor;   // linear, times intensity times exposure
+  vec3 ambient;      // linear
+};
+
+// What decided a pixel: for labels, and for debugging.
+struct PixelDiagnosis {
+  uint texel;  // x | y << 14 | layer << 28
+  uint flags;  // kPixel*
+};
+const uint kPixelShaded = 1u;     // a surface that faces the light
+const uint kPixelCovered = 2u;    // the map covers it
+const uint kPixelLit = 4u;
+const uint kPixelGrazing = 8u;    // the texel's ray does not meet the receiver's plane between near and far
+const uint kPixelUnknown = 16u;   // no such bias method
+const float kUnknownVisibility = -1.0f;  // painted magenta
+
+GNOMON_FN uint packTexel(int layer, ivec2 texel) {
+  return uint(texel.x) | (uint(texel.y) << 14u) | (uint(layer) << 28u);
+}
+
+GNOMON_FN ivec2 unpackTexel(uint word) { return ivec2(int(word & 16383u), int((word >> 14u) & 16383u)); }
+
+GNOMON_FN int unpackLayer(uint word) { return int(word >> 28u); }
+
+// Not unit: from a point of a surface towards the light.
+GNOMON_FN vec3 towardsLight(ShadeUniforms shade, vec3 posW) { return shade.lightW - posW * shade.positional; }
+
+GNOMON_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(gnomon::glsl::ShadeUniforms) == 128 + 20 + 16 + 16 + 24);
+static_assert(offsetof(gnomon::glsl::ShadeUniforms, ambient) == 192);
+static_assert(sizeof(gnomon::glsl::MapUniforms) == 48 + 784);
+#endif
+#endif

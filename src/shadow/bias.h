@@ -1,0 +1,50 @@
+#pragma once
+// The list of biases: name, knobs with unit, range, default and a sentence. Flags, reports, --help and docs derive
+// from it. The decisions themselves are in shaders/shared/bias/.
+
+#include "shared/bias.glsl"
+
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+enum class Unit { Metres, One };
+const char* unitName(Unit unit);  // "m", ""
+
+struct BiasKnob {
+  const char* name;  // on the command line --<bias>-<name>, in results params.<name>
+  Unit unit;
+  float lower, upper;
+  // A default in metres would mean nothing on a scene of another size: metres are given as a share of the scene's
+  // diagonal.
+  float defaultValue;
+  bool defaultOfSceneScale;
+  const char* sentence;
+  float glsl::BiasParams::* field;
+};
+
+struct BiasMethod {
+  int id;  // kBias*
+  const char* name;
+  const char* sentence;  // what it does and where it comes from
+  std::vector<BiasKnob> knobs;
+};
+
+// In the order they are listed and run.
+const std::vector<BiasMethod>& biasMethods();
+
+// Throws UsageError that lists the names.
+const BiasMethod& findBias(const std::string& name);
+
+// "a,b,c" or "all". Throws UsageError.
+std::vector<const BiasMethod*> parseBiases(const std::string& list);
+
+// Every knob at its default for a scene of this diagonal (metres).
+glsl::BiasParams defaultBiasParams(float sceneScale);
+
+// "fragment", "occluder", "stored". Throws UsageError.
+int parseEpsilonAt(const std::string& name);
+const char* epsilonAtName(int epsilonAt);
+
+}  // namespace gnomon

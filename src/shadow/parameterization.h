@@ -1,0 +1,55 @@
+#pragma once
+// A parameterization, as the rest of Gnomon sees it: it fits itself to a scene and a light, and draws its layers.
+// Its mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in shaders/shared/map.glsl, and a
+// FittedMap carries the numbers those functions read.
+//
+// spot and directional are here; omni/ adds its own to the list.
+
+#include "scene/scene_buffers.h"
+#include "truth/receivers.h"
+
+#include "shared/light_frame.glsl"
+#include "shared/map.glsl"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+struct FittedMap {
+  glsl::LightFrame frame;
+  glsl::ShadowMap map;
+  // Clip distances of layer 0 along the light's axis, metres; for reports.
+  float zNear = 0.0f;
+  float zFar = 0.0f;
+};
+
+// What a map may be fitted to.
+struct FitInput {
+  const Scene& scene;
+  const LightModel& light;
+  std::span<const glm::dvec3> receiversW;  // the scored points the camera sees
+  int side = 1024;                         // texels
+};
+
+
+class Parameterization {
+ public:
+  virtual ~Parameterization() = default;
+  virtual const char* name() const = 0;      // on the command line: --maps spot
+  virtual const char* sentence() const = 0;  // for --help
+  virtual int layerCount() const = 0;
+  // How a light is taken: a spot map gives any positional light a cone, a directional map makes a sun of it.
+  // `aimW`: where the camera looks, for lights that have no direction of their own.
+  virtual LightModel lightModel(const Light& light, const glm::dvec3& aimW) const = 0;
+  virtual FittedMap fit(const FitInput& input) const = 0;
+};
+
+const std::vector<const Parameterization*>& parameterizations();
+
+// "a,b" to parameterizations. Throws UsageError that lists the names.
+std::vector<const Parameterization*> parseMaps(const std::string& list);
+
+}  // namespace gnomon

@@ -1,0 +1,93 @@
+#include "shadow/visibility_pass.h"
+
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+glm::uvec3 groupsFor(int width, int height) {
+  const uint32_t side = glsl::kShadeGroupSide;
+  return {(static_cast<uint32_t>(width) + side - 1) / side, (static_cast<uint32_t>(height) + side - 1) / side, 1};
+}
+
+VkDeviceSize pixelBytes(int width, int height, size_t each) {
+  return static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height) * each;
+}
+
+}  // namespace
+
+glsl::ShadeUniforms shadeUniforms(const glsl::CameraView& camera, const LightModel& light,
+                                  const glsl::BiasParams& bias) {
+  const bool positional = light.type != LightType::Directional;
+  glsl::ShadeUniforms shade{};
+  shade.camera = camera;
+  shade.bias = bias;
+  shade.lightW = positional ? glm::vec3(light.positionW) : -glm::vec3(light.directionW);
+  shade.positional = positional ? 1.0f : 0.0f;
+  shade.coneAxisW = glm::vec3(light.directionW);
+  shade.coneCos = light.type == LightType::Spot ? static_cast<float>(std::cos(light.outerConeRad)) : -1.0f;
+  shade.lightColor = glm::vec3(1.0f);
+  shade.ambient = glm::vec3(0.0f);
+  return shade;
+}
+
+VisibilityPass::VisibilityPass(const gpu::Device& device, int width, int height)
+    : device_(device),
+      groupCount_(groupsFor(width, height)),
+      uniforms_(device, {.name = "shade uniforms", .size = sizeof(glsl::ShadeUniforms)}),
+      visibility_(device, {.name = "visibility", .size = pixelBytes(width, height, sizeof(float))}),
+      diagnosis_(device,
+                 {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}) {}
+
+void VisibilityPass::setUniforms(const glsl::ShadeUniforms& uniforms) {
+  gpu::upload(device_, uniforms_, gpu::asPush(uniforms));
+}
+
+const gpu::ComputeProgram& VisibilityPass::program(int method, bool diagnose) {
+  for (const auto& variant : variants_)
+    if (variant->method == method && variant->diagnose == diagnose) return variant->program;
+  variants_.push_back(std::make_unique<Variant>(
+      Variant{method, diagnose,
+              gpu::ComputeProgram(device_, {"shadow/shade_visibility.comp.glsl", {}},
+                                  {{.id = 0, .value = method}, {.id = 1, .value = diagnose ? 1 : 0}})}));
+  return variants_.back()->program;
+}
+
+void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                            const MapImage& map, int method, bool diagnose) {
+  commands.dispatch(program(method, diagnose), groupCount_, {},
+                    {{glsl::kBindPositions, scene.positions},
+                     {glsl::kBindIndices, scene.indices},
+                     {glsl::kBindInstances, scene.instances},
+                     {glsl::kBindMap, map.uniforms()},
+                     {glsl::kBindMapDepth, map.depth()},
+                     {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+                     {glsl::kBindShade, uniforms_},
+                     {glsl::kBindVisibility, visibility_},
+                     {glsl::kBindDiagnosis, diagnosis_}});
+}
+
+RadiancePass::RadiancePass(const gpu::Device& device, int width, int height)
+    : program_(device, {"shadow/shade_radiance.comp.glsl", {}}),
+      groupCount_(groupsFor(width, height)),
+      radiance_(device, {.name = "radiance", .size = pixelBytes(width, height, sizeof(glm::vec3))}) {}
+
+void RadiancePass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                          const gpu::Buffer& shadeUniforms, const gpu::Buffer& visibility) const {
+  commands.dispatch(program_, groupCount_, {},
+                    {{glsl::kBindPositions, scene.positions},
+                     {glsl::kBindIndices, scene.indices},
+                     {glsl::kBindInstances, scene.instances},
+                     {glsl::kBindUvs, scene.uvs},
+                     {glsl::kBindNormals, scene.normals},
+                     {glsl::kBindMaterials, scene.materials},
+                     {glsl::kBindTextures, scene.textures},
+                     {glsl::kBindTexels, scene.texels},
+                     {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+                     {glsl::kBindShade, shadeUniforms},
+                     {glsl::kBindVisibility, visibility},
+                     {glsl::kBindRadiance, radiance_}});
+}
+
+}  // namespace gnomon

@@ -1,0 +1,61 @@
+#pragma once
+// Pixels to light or shadow by a map and a bias, and to a picture.
+
+#include "scene/gbuffer.h"
+#include "shadow/bias.h"
+#include "shadow/map_image.h"
+
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+// Numbers of one frame, written to a buffer before it is recorded.
+glsl::ShadeUniforms shadeUniforms(const glsl::CameraView& camera, const LightModel& light,
+                                  const glsl::BiasParams& bias);
+
+class VisibilityPass {
+ public:
+  VisibilityPass(const gpu::Device& device, int width, int height);
+
+  // `method`: kBias*. Compiles its pipeline on first use.
+  void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const MapImage& map,
+              int method, bool diagnose);
+
+  void setUniforms(const glsl::ShadeUniforms& uniforms);
+
+  const gpu::Buffer& uniforms() const { return uniforms_; }
+  const gpu::Buffer& visibility() const { return visibility_; }  // float a pixel; 1 lit, kUnknownVisibility
+  const gpu::Buffer& diagnosis() const { return diagnosis_; }    // glsl::PixelDiagnosis a pixel
+
+ private:
+  struct Variant {
+    int method;
+    bool diagnose;
+    gpu::ComputeProgram program;
+  };
+  const gpu::ComputeProgram& program(int method, bool diagnose);
+
+  const gpu::Device& device_;
+  glm::uvec3 groupCount_;
+  gpu::Buffer uniforms_, visibility_, diagnosis_;
+  std::vector<std::unique_ptr<Variant>> variants_;
+};
+
+class RadiancePass {
+ public:
+  RadiancePass(const gpu::Device& device, int width, int height);
+
+  // Reads the visibility buffer; writes linear rgb.
+  void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+              const gpu::Buffer& shadeUniforms, const gpu::Buffer& visibility) const;
+
+  const gpu::Buffer& radiance() const { return radiance_; }  // vec3 a pixel, tightly packed
+
+ private:
+  gpu::ComputeProgram program_;
+  glm::uvec3 groupCount_;
+  gpu::Buffer radiance_;
+};
+
+}  // namespace gnomon
