@@ -1,6 +1,6 @@
 #pragma once
-// One command buffer, recorded, submitted and waited for. A pass is one call that names its program and everything it
-// binds; between two passes stands one barrier that says who wrote and who reads.
+// One command buffer, recorded, submitted and waited for. A pass is one call that names its program and
+// everything it binds; between two passes stands one barrier that says who wrote and who reads.
 
 #include "gpu/program.h"
 
@@ -13,7 +13,8 @@
 
 namespace gnomon::gpu {
 
-// A resource for one binding of a program: a storage buffer, a storage image, or a sampled image (texelFetch).
+// A resource for one binding of a program: a storage buffer, a storage image, or a sampled image
+// (texelFetch).
 struct Binding {
   uint32_t index;
   const Buffer* buffer = nullptr;
@@ -56,7 +57,8 @@ class Commands {
   void beginStage(const char* name);
   void endStage();
 
-  // Everything before is visible to everything after. `words`: "shadow map writes depth -> visibility fetches it".
+  // Everything before is visible to everything after. `words`: "shadow map writes depth -> visibility fetches
+  // it".
   void barrier(const char* words);
 
   // Checks that `push` has the size the program declares and that exactly its bindings are given.
@@ -65,7 +67,8 @@ class Commands {
 
   // Viewport and scissor cover the targets; culling is off until setCulling.
   void beginRendering(const RenderTargets& targets);
-  void bind(const GraphicsProgram& program, std::span<const std::byte> push, std::initializer_list<Binding> bindings);
+  void bind(const GraphicsProgram& program, std::span<const std::byte> push,
+            std::initializer_list<Binding> bindings);
   void setCulling(VkCullModeFlags mode, VkFrontFace front);
   void bindIndexBuffer(const Buffer& buffer);  // 32-bit indices
   void drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex, int32_t vertexOffset,
@@ -83,6 +86,8 @@ class Commands {
   Submission submitAndWait();
 
  private:
+  std::vector<StageTime> readStages() const;
+
   const Device& device_;
   OwnedChild<VkCommandPool, vkDestroyCommandPool> pool_;
   OwnedChild<VkQueryPool, vkDestroyQueryPool> queries_;
@@ -91,6 +96,7 @@ class Commands {
   std::vector<std::string> stageNames_;
   bool inStage_ = false;
   bool inRendering_ = false;
+  bool submitted_ = false;
 };
 
 template <typename T>

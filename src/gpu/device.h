@@ -2,7 +2,8 @@
 // The Vulkan 1.3 device: one instance, one queue, the features Gnomon needs, the messages validation gave.
 //
 // Choice: --device NAME takes the first device whose name contains NAME (case ignored); without it the first
-// discrete GPU, then integrated, then a CPU device (lavapipe). GNOMON_DEVICE in the environment acts as --device.
+// discrete GPU, then integrated, then a CPU device (lavapipe). GNOMON_DEVICE in the environment acts as
+// --device.
 
 #include "gpu/vulkan.h"
 
@@ -15,6 +16,8 @@ namespace gnomon::gpu {
 struct DeviceOptions {
   std::string name;         // part of a device name; empty chooses
   bool validation = false;  // also synchronization validation; or GNOMON_VALIDATION=1 in the environment
+  // Also receives every message, those about objects that outlive the device too; must outlive the device.
+  std::vector<std::string>* messageSink = nullptr;
 };
 
 struct DeviceInfo {
@@ -22,16 +25,30 @@ struct DeviceInfo {
   std::string driver;      // name and version text of the driver
   std::string apiVersion;  // "1.3.230"
   bool isCpu = false;
-  float timestampPeriod = 1.0f;  // nanoseconds a tick
+  float timestampPeriod = 1.0f;     // nanoseconds a tick
+  uint32_t timestampValidBits = 0;  // 0: the queue has no timestamps
   uint32_t maxImageDimension2D = 0;
+  uint32_t maxImageLayers = 0;
+  uint32_t maxPushConstantBytes = 0;
   uint64_t maxStorageBufferBytes = 0;
   uint64_t maxAllocationBytes = 0;
+  bool tessellation = false;
   bool orderedAttachmentAccess = false;  // VK_EXT_rasterization_order_attachment_access, colour
 };
 
+// Entry points that the loader does not export; the debug ones are null where there is no VK_EXT_debug_utils.
+struct DeviceFunctions {
+  PFN_vkCmdPushDescriptorSetKHR pushDescriptorSet = nullptr;
+  PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
+  PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
+  PFN_vkSetDebugUtilsObjectNameEXT setObjectName = nullptr;
+};
+
+// Submissions are not synchronized: one thread at a time.
 class Device {
  public:
-  // Throws WorldError: no device, none of that name (lists them), or a required feature is missing (names it).
+  // Throws WorldError: no device, none of that name (lists them), or a required feature is missing (names
+  // it).
   static std::unique_ptr<Device> create(const DeviceOptions& options);
   ~Device();
   Device(const Device&) = delete;
@@ -43,19 +60,23 @@ class Device {
   VkQueue queue() const { return queue_; }
   uint32_t queueFamily() const { return queueFamily_; }
   VkPipelineCache pipelineCache() const { return pipelineCache_.get(); }
+  const DeviceFunctions& functions() const { return functions_; }
 
   // Every warning and error of the validation layers so far. Tests fail on any.
   const std::vector<std::string>& validationMessages() const;
+  // Empties that list: a test that provoked a message on purpose takes it away.
+  std::vector<std::string> takeValidationMessages() const;
 
   // A memory type with the wanted properties; falls back to fewer of the preferred ones. Throws WorldError.
-  uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
+  uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags required,
+                      VkMemoryPropertyFlags preferred) const;
 
   void nameObject(VkObjectType type, uint64_t handle, const char* name) const;
 
  private:
-  Device() = default;
+  Device();
   struct Messages;
-  std::unique_ptr<Messages> messages_;
+  std::unique_ptr<Messages> messages_;  // first, so that it hears the instance's end
   Owned<VkInstance, vkDestroyInstance> instance_;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
@@ -65,6 +86,7 @@ class Device {
   uint32_t queueFamily_ = 0;
   OwnedChild<VkPipelineCache, vkDestroyPipelineCache> pipelineCache_;
   VkPhysicalDeviceMemoryProperties memory_{};
+  DeviceFunctions functions_;
 
   friend struct DeviceBuilder;
 };

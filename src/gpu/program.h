@@ -1,9 +1,9 @@
 #pragma once
-// Programs: shaders plus what their SPIR-V says of them (bindings, push constants), so that a pass that binds the
-// wrong thing is refused at the call and not by a black picture.
+// Programs: shaders plus what their SPIR-V says of them (bindings, push constants), so that a pass that binds
+// the wrong thing is refused at the call and not by a black picture.
 //
-// All bindings are in set 0 and are pushed (VK_KHR_push_descriptor). Every binding the SPIR-V declares must be given
-// at each call: lavapipe 22.3 crashes on descriptors that were never written.
+// All bindings are in set 0 and are pushed (VK_KHR_push_descriptor). Every binding the SPIR-V declares must
+// be given at each call: lavapipe 22.3 crashes on descriptors that were never written.
 
 #include "gpu/resources.h"
 #include "gpu/shader_compiler.h"
@@ -44,9 +44,13 @@ class Program {
   const std::string& name() const { return name_; }
 
  protected:
+  void createLayouts(const Device& device);  // from interface_
+  void adopt(const Device& device, VkPipeline pipeline);
+
   std::string name_;
   ProgramInterface interface_;
   VkPipelineBindPoint bindPoint_ = VK_PIPELINE_BIND_POINT_COMPUTE;
+  OwnedChild<VkSampler, vkDestroySampler> sampler_;  // nearest, clamped: for every sampler2DArray
   OwnedChild<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> setLayout_;
   OwnedChild<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
   OwnedChild<VkPipeline, vkDestroyPipeline> pipeline_;
@@ -62,20 +66,20 @@ class ComputeProgram : public Program {
 struct GraphicsDesc {
   const char* name = nullptr;
   ShaderSource vertex;
-  ShaderSource fragment;               // an empty path: depth only
+  ShaderSource fragment;  // an empty path: depth only
   std::vector<Specialization> specializations;
   std::vector<VkFormat> colorFormats;  // of the attachments
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;
   VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
   bool depthWrite = true;
   bool depthClamp = false;
-  uint32_t viewMask = 0;                        // multiview
-  bool minBlend = false;                        // colour attachments keep the minimum
+  uint32_t viewMask = 0;  // multiview
+  bool minBlend = false;  // colour attachments keep the minimum
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
 };
 
-// Vertices are pulled from storage buffers by gl_VertexIndex; there is no vertex input. Viewport, scissor, cull mode and
-// front face are dynamic.
+// Vertices are pulled from storage buffers by gl_VertexIndex; there is no vertex input. Viewport, scissor,
+// cull mode and front face are dynamic.
 class GraphicsProgram : public Program {
  public:
   GraphicsProgram() = default;

@@ -28,7 +28,8 @@ class Buffer {
   Buffer(const Device& device, const BufferDesc& desc);
   VkBuffer handle() const { return buffer_.get(); }
   VkDeviceSize size() const { return size_; }
-  // Mapped memory: always for Readback, and for Device where the device's memory is host visible; else nullptr.
+  // Mapped memory: always for Readback, and for Device where the device's memory is host visible and cached
+  // (lavapipe, integrated GPUs); else nullptr.
   std::byte* mapped() const { return mapped_; }
 
  private:
@@ -39,7 +40,7 @@ class Buffer {
 };
 
 struct ImageDesc {
-  const char* name = nullptr;  // mandatory
+  const char* name = nullptr;  // mandatory; a literal, since the image keeps the pointer
   VkFormat format = VK_FORMAT_UNDEFINED;
   uint32_t width = 1, height = 1;  // texels
   uint32_t layerCount = 1;         // the view is 2D_ARRAY when `array`, else 2D
@@ -53,7 +54,7 @@ class Image {
   // Brings the image to GENERAL before it returns.
   Image(const Device& device, const ImageDesc& desc);
   VkImage handle() const { return image_.get(); }
-  VkImageView view() const { return view_.get(); }            // all layers
+  VkImageView view() const { return view_.get(); }                                  // all layers
   VkImageView layerView(uint32_t layer) const { return layerViews_[layer].get(); }  // one layer, 2D
   const ImageDesc& desc() const { return desc_; }
   VkImageAspectFlags aspect() const;

@@ -1,6 +1,6 @@
 #pragma once
-// GLSL to SPIR-V at run time: embedded sources (or --shader-dir to edit them live), #include resolved from the
-// shaders folder, glslang in process, SPIR-V kept on disk under the hash of the expanded source.
+// GLSL to SPIR-V at run time: embedded sources (or --shader-dir to edit them live), #include resolved from
+// the shaders folder, glslang in process, SPIR-V kept on disk under the hash of the expanded source.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,12 +13,14 @@ namespace gnomon::gpu {
 // Where sources come from; the embedded ones unless set. Throws WorldError where it is no folder.
 void setShaderDirectory(const std::filesystem::path& folder);
 
-// Where SPIR-V and pipeline caches live: $GNOMON_CACHE_DIR, else $XDG_CACHE_HOME/gnomon, else ~/.cache/gnomon;
-// an empty GNOMON_CACHE_DIR turns the cache off. A cache that cannot be written is passed over.
+// Where SPIR-V and pipeline caches live: $GNOMON_CACHE_DIR, else $XDG_CACHE_HOME/gnomon, else
+// ~/.cache/gnomon; an empty GNOMON_CACHE_DIR turns the cache off. A cache that cannot be written is passed
+// over.
 std::filesystem::path cacheDirectory();
 
 struct ShaderSource {
-  std::string path;  // "shadow/shade_visibility.comp.glsl", below the shaders folder; the stage is in the name
+  std::string
+      path;  // "shadow/shade_visibility.comp.glsl", below the shaders folder; the stage is in the name
   // Replaces or adds files for the #include resolver: a user's own bias, a test's variant.
   std::map<std::string, std::string> overrides;
 };

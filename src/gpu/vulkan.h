@@ -1,5 +1,6 @@
 #pragma once
-// Vulkan with owners: a handle that destroys itself, and a check that throws with the call and the result's name.
+// Vulkan with owners: a handle that destroys itself, and a check that throws with the call and the result's
+// name.
 
 #include <vulkan/vulkan.h>
 

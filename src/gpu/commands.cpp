@@ -1,0 +1,349 @@
+#include "gpu/commands.h"
+
+#include "base/check.h"
+#include "base/error.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+namespace gnomon::gpu {
+
+namespace {
+
+constexpr uint32_t kMaxStages = 64;
+
+void recordFullBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 readers) {
+  VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  memory.dstStageMask = readers;
+  memory.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &memory;
+  vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+bool takesBuffer(VkDescriptorType type) {
+  return type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER || type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+}
+
+const char* typeName(VkDescriptorType type) {
+  switch (type) {
+    case VK_DESCRIPTOR_TYPE_STORAGE_BUFFER:
+      return "storage buffer";
+    case VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER:
+      return "uniform buffer";
+    case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
+      return "storage image";
+    default:
+      return "texture";
+  }
+}
+
+const Binding* findBinding(std::initializer_list<Binding> bindings, uint32_t index) {
+  const auto found = std::find_if(bindings.begin(), bindings.end(),
+                                  [index](const Binding& binding) { return binding.index == index; });
+  return found == bindings.end() ? nullptr : &*found;
+}
+
+// Exactly the program's bindings, each with the right kind of resource; else aborts and says what is wrong.
+void checkBindings(const Program& program, std::initializer_list<Binding> given) {
+  const std::vector<ProgramInterface::Binding>& declared = program.interface().bindings;
+  for (const ProgramInterface::Binding& binding : declared) {
+    const Binding* found = findBinding(given, binding.index);
+    const char* is = !found ? "nothing" : found->buffer ? "buffer" : "image";
+    const char* takes = takesBuffer(binding.type) ? "buffer" : "image";
+    if (std::string_view(is) == takes) continue;
+    GNOMON_CHECK_EQ(fmt::format("{} is given {} for binding {}", program.name(), is, binding.index),
+                    fmt::format("{} '{}', which it declares", typeName(binding.type), binding.name));
+  }
+  for (const Binding& binding : given) {
+    const bool known = std::any_of(declared.begin(), declared.end(),
+                                   [&](const auto& other) { return other.index == binding.index; });
+    if (known) continue;
+    GNOMON_CHECK_EQ(fmt::format("{} is given binding {}", program.name(), binding.index),
+                    fmt::format("the {} bindings that it declares, not this one", declared.size()));
+  }
+  if (given.size() != declared.size())
+    GNOMON_CHECK_EQ(fmt::format("{} is given {} bindings, one of them twice", program.name(), given.size()),
+                    fmt::format("the {} that it declares", declared.size()));
+}
+
+void checkPush(const Program& program, std::span<const std::byte> push) {
+  if (push.size() == program.interface().pushConstantBytes) return;
+  GNOMON_CHECK_EQ(fmt::format("{} is given {} bytes of push constants", program.name(), push.size()),
+                  fmt::format("the {} bytes that it declares", program.interface().pushConstantBytes));
+}
+
+// Binds the pipeline, every descriptor and the push constants.
+void recordProgram(const Device& device, VkCommandBuffer commands, const Program& program,
+                   std::span<const std::byte> push, std::initializer_list<Binding> given) {
+  GNOMON_CHECK(program.pipeline() != VK_NULL_HANDLE);
+  checkBindings(program, given);
+  checkPush(program, push);
+  vkCmdBindPipeline(commands, program.bindPoint(), program.pipeline());
+  const std::vector<ProgramInterface::Binding>& declared = program.interface().bindings;
+  std::vector<VkDescriptorBufferInfo> buffers(declared.size());
+  std::vector<VkDescriptorImageInfo> images(declared.size());
+  std::vector<VkWriteDescriptorSet> writes(declared.size());
+  for (size_t i = 0; i < declared.size(); ++i) {
+    const Binding& binding = *findBinding(given, declared[i].index);
+    VkWriteDescriptorSet& write = writes[i];
+    write = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstBinding = declared[i].index;
+    write.descriptorCount = 1;
+    write.descriptorType = declared[i].type;
+    if (binding.buffer) {
+      GNOMON_CHECK(binding.buffer->handle() != VK_NULL_HANDLE);
+      buffers[i] = {binding.buffer->handle(), 0, VK_WHOLE_SIZE};
+      write.pBufferInfo = &buffers[i];
+    } else {
+      GNOMON_CHECK(binding.image->view() != VK_NULL_HANDLE);
+      images[i] = {VK_NULL_HANDLE, binding.image->view(), VK_IMAGE_LAYOUT_GENERAL};
+      write.pImageInfo = &images[i];
+    }
+  }
+  if (!writes.empty())
+    device.functions().pushDescriptorSet(commands, program.bindPoint(), program.layout(), 0,
+                                         static_cast<uint32_t>(writes.size()), writes.data());
+  if (!push.empty())
+    vkCmdPushConstants(commands, program.layout(), program.interface().pushConstantStages, 0,
+                       static_cast<uint32_t>(push.size()), push.data());
+}
+
+VkRenderingAttachmentInfo attachment(const Image& image, std::optional<uint32_t> layer,
+                                     std::optional<VkClearValue> clear) {
+  if (layer) GNOMON_CHECK_LT(*layer, image.desc().layerCount);
+  VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+  info.imageView = layer ? image.layerView(*layer) : image.view();
+  info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
+  info.loadOp = clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+  info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  if (clear) info.clearValue = *clear;
+  return info;
+}
+
+VkExtent2D extentOf(const RenderTargets& targets) {
+  const Image* first = targets.depth            ? targets.depth
+                       : targets.colors.empty() ? nullptr
+                                                : targets.colors[0].image;
+  GNOMON_CHECK(first != nullptr);
+  const VkExtent2D extent{first->desc().width, first->desc().height};
+  for (const ColorTarget& color : targets.colors) {
+    GNOMON_CHECK_EQ(color.image->desc().width, extent.width);
+    GNOMON_CHECK_EQ(color.image->desc().height, extent.height);
+  }
+  return extent;
+}
+
+}  // namespace
+
+Commands::Commands(const Device& device, const char* name) : device_(device) {
+  GNOMON_CHECK(name != nullptr);
+  VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+  poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+  poolInfo.queueFamilyIndex = device.queueFamily();
+  VkCommandPool pool = VK_NULL_HANDLE;
+  GNOMON_VK_CHECK(vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool));
+  pool_ = {device.handle(), pool};
+  VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  VkFence fence = VK_NULL_HANDLE;
+  GNOMON_VK_CHECK(vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence));
+  fence_ = {device.handle(), fence};
+  VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+  info.commandPool = pool;
+  info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  info.commandBufferCount = 1;
+  GNOMON_VK_CHECK(vkAllocateCommandBuffers(device.handle(), &info, &commands_));
+  device.nameObject(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<uint64_t>(commands_), name);
+  VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  GNOMON_VK_CHECK(vkBeginCommandBuffer(commands_, &begin));
+  barrier("earlier submissions write -> everything here reads");
+}
+
+Commands::~Commands() = default;
+
+void Commands::beginStage(const char* name) {
+  GNOMON_CHECK(name != nullptr);
+  GNOMON_CHECK(!inStage_);
+  GNOMON_CHECK(!inRendering_);
+  GNOMON_CHECK_LT(stageNames_.size(), kMaxStages);
+  if (!queries_ && device_.info().timestampValidBits > 0) {
+    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = 2 * kMaxStages;
+    VkQueryPool queries = VK_NULL_HANDLE;
+    GNOMON_VK_CHECK(vkCreateQueryPool(device_.handle(), &info, nullptr, &queries));
+    queries_ = {device_.handle(), queries};
+    vkResetQueryPool(device_.handle(), queries, 0, info.queryCount);
+  }
+  VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+  label.pLabelName = name;
+  if (device_.functions().beginLabel) device_.functions().beginLabel(commands_, &label);
+  if (queries_)
+    vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(),
+                         static_cast<uint32_t>(2 * stageNames_.size()));
+  stageNames_.emplace_back(name);
+  inStage_ = true;
+}
+
+void Commands::endStage() {
+  GNOMON_CHECK(inStage_);
+  GNOMON_CHECK(!inRendering_);
+  if (queries_)
+    vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(),
+                         static_cast<uint32_t>(2 * stageNames_.size() - 1));
+  if (device_.functions().endLabel) device_.functions().endLabel(commands_);
+  inStage_ = false;
+}
+
+void Commands::barrier(const char* words) {
+  GNOMON_CHECK(words != nullptr && *words != '\0');
+  GNOMON_CHECK(!inRendering_);
+  recordFullBarrier(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+}
+
+void Commands::dispatch(const ComputeProgram& program, glm::uvec3 groupCount, std::span<const std::byte> push,
+                        std::initializer_list<Binding> bindings) {
+  GNOMON_CHECK(!inRendering_);
+  recordProgram(device_, commands_, program, push, bindings);
+  vkCmdDispatch(commands_, groupCount.x, groupCount.y, groupCount.z);
+}
+
+void Commands::beginRendering(const RenderTargets& targets) {
+  GNOMON_CHECK(!inRendering_);
+  const VkExtent2D extent = extentOf(targets);
+  std::vector<VkRenderingAttachmentInfo> colors;
+  for (const ColorTarget& color : targets.colors) {
+    std::optional<VkClearValue> clear;
+    if (color.clear) clear = VkClearValue{.color = *color.clear};
+    colors.push_back(attachment(*color.image, targets.layer, clear));
+  }
+  VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+  info.renderArea.extent = extent;
+  info.layerCount = 1;
+  info.viewMask = targets.viewMask;
+  info.colorAttachmentCount = static_cast<uint32_t>(colors.size());
+  info.pColorAttachments = colors.data();
+  VkRenderingAttachmentInfo depth{};
+  if (targets.depth) {
+    std::optional<VkClearValue> clear;
+    if (targets.clearDepth) clear = VkClearValue{.depthStencil = {*targets.clearDepth, 0}};
+    depth = attachment(*targets.depth, targets.layer, clear);
+    info.pDepthAttachment = &depth;
+  }
+  vkCmdBeginRendering(commands_, &info);
+  inRendering_ = true;
+
+  const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                            0.0f, 1.0f};
+  const VkRect2D scissor{{0, 0}, extent};
+  vkCmdSetViewport(commands_, 0, 1, &viewport);
+  vkCmdSetScissor(commands_, 0, 1, &scissor);
+  setCulling(VK_CULL_MODE_NONE, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+}
+
+void Commands::bind(const GraphicsProgram& program, std::span<const std::byte> push,
+                    std::initializer_list<Binding> bindings) {
+  GNOMON_CHECK(inRendering_);
+  recordProgram(device_, commands_, program, push, bindings);
+}
+
+void Commands::setCulling(VkCullModeFlags mode, VkFrontFace front) {
+  vkCmdSetCullMode(commands_, mode);
+  vkCmdSetFrontFace(commands_, front);
+}
+
+void Commands::bindIndexBuffer(const Buffer& buffer) {
+  vkCmdBindIndexBuffer(commands_, buffer.handle(), 0, VK_INDEX_TYPE_UINT32);
+}
+
+void Commands::drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex,
+                           int32_t vertexOffset, uint32_t firstInstance) {
+  GNOMON_CHECK(inRendering_);
+  vkCmdDrawIndexed(commands_, indexCount, instanceCount, firstIndex, vertexOffset, firstInstance);
+}
+
+void Commands::draw(uint32_t vertexCount, uint32_t instanceCount, uint32_t firstVertex,
+                    uint32_t firstInstance) {
+  GNOMON_CHECK(inRendering_);
+  vkCmdDraw(commands_, vertexCount, instanceCount, firstVertex, firstInstance);
+}
+
+void Commands::endRendering() {
+  GNOMON_CHECK(inRendering_);
+  vkCmdEndRendering(commands_);
+  inRendering_ = false;
+}
+
+void Commands::fill(const Buffer& buffer, uint32_t word) {
+  GNOMON_CHECK(!inRendering_);
+  GNOMON_CHECK_EQ(buffer.size() % 4, 0u);
+  vkCmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, word);
+}
+
+void Commands::copy(const Buffer& from, const Buffer& to, VkDeviceSize size) {
+  GNOMON_CHECK(!inRendering_);
+  GNOMON_CHECK_LE(size, from.size());
+  GNOMON_CHECK_LE(size, to.size());
+  if (size == 0) return;
+  const VkBufferCopy region{0, 0, size};
+  vkCmdCopyBuffer(commands_, from.handle(), to.handle(), 1, &region);
+}
+
+void Commands::copy(const Image& from, const Buffer& to) {
+  GNOMON_CHECK(!inRendering_);
+  const ImageDesc& desc = from.desc();
+  VkBufferImageCopy region{};
+  region.imageSubresource = {from.aspect(), 0, 0, desc.layerCount};
+  region.imageExtent = {desc.width, desc.height, 1};
+  vkCmdCopyImageToBuffer(commands_, from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
+}
+
+Submission Commands::submitAndWait() {
+  GNOMON_CHECK(!inStage_);
+  GNOMON_CHECK(!inRendering_);
+  GNOMON_CHECK(!submitted_);
+  submitted_ = true;
+  // A fence makes nothing visible to the CPU by itself: mapped memory needs the host as a reader.
+  recordFullBarrier(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT);
+  GNOMON_VK_CHECK(vkEndCommandBuffer(commands_));
+  VkCommandBufferSubmitInfo commandsInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+  commandsInfo.commandBuffer = commands_;
+  VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  info.commandBufferInfoCount = 1;
+  info.pCommandBufferInfos = &commandsInfo;
+  const VkFence fence = fence_.get();
+  const auto begin = std::chrono::steady_clock::now();
+  GNOMON_VK_CHECK(vkQueueSubmit2(device_.queue(), 1, &info, fence));
+  GNOMON_VK_CHECK(vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX));
+  const auto end = std::chrono::steady_clock::now();
+  Submission submission;
+  submission.wallMs = std::chrono::duration<double, std::milli>(end - begin).count();
+  submission.stages = readStages();
+  return submission;
+}
+
+std::vector<StageTime> Commands::readStages() const {
+  std::vector<StageTime> stages;
+  std::vector<uint64_t> ticks(2 * stageNames_.size());
+  if (queries_)
+    GNOMON_VK_CHECK(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0,
+                                          static_cast<uint32_t>(ticks.size()),
+                                          ticks.size() * sizeof(uint64_t), ticks.data(), sizeof(uint64_t),
+                                          VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  // Fewer than 64 valid bits wrap around, so the difference is taken within them.
+  const uint32_t bits = device_.info().timestampValidBits;
+  const uint64_t mask = bits >= 64 ? ~0ull : (1ull << bits) - 1;
+  for (size_t i = 0; i < stageNames_.size(); ++i) {
+    const uint64_t elapsed = (ticks[2 * i + 1] - ticks[2 * i]) & mask;
+    stages.push_back({stageNames_[i], static_cast<double>(elapsed) * device_.info().timestampPeriod * 1e-6});
+  }
+  return stages;
+}
+
+}  // namespace gnomon::gpu

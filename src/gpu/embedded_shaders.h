@@ -1,0 +1,16 @@
+#pragma once
+// The shaders folder as a table, made by cmake/embed_shaders.cmake.
+
+#include <cstddef>
+
+namespace gnomon::gpu {
+
+struct EmbeddedShader {
+  const char* path;  // below shaders/
+  const char* text;
+};
+
+extern const EmbeddedShader kEmbeddedShaders[];
+extern const size_t kEmbeddedShaderCount;
+
+}  // namespace gnomon::gpu
