@@ -1,0 +1,84 @@
+#include "scene/generate.h"
+
+#include "base/error.h"
+#include "scene/generate/scenes.h"
+#include "scene/gltf.h"
+
+#include <charconv>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+Scene makeDefaultCrowd() {
+  return makeCrowd(kCrowdDefault);
+}
+
+// "crowd:N", or nothing where the name does not begin like that.
+std::optional<Scene> openSizedCrowd(const std::string& name) {
+  const std::string prefix = "crowd:";
+  if (!name.starts_with(prefix)) return std::nullopt;
+  uint64_t triangles = 0;
+  const char* end = name.data() + name.size();
+  const auto [stop, failure] = std::from_chars(name.data() + prefix.size(), end, triangles);
+  if (failure != std::errc() || stop != end || triangles < kCrowdMin || triangles > kCrowdMax)
+    throw fileError(name, "is not a size of crowd that can be made",
+                    fmt::format("give crowd:N with N from {} to {} triangles", kCrowdMin, kCrowdMax));
+  return makeCrowd(triangles);
+}
+
+}  // namespace
+
+const std::vector<GeneratedScene>& generatedScenes() {
+  static const std::vector<GeneratedScene> scenes = {
+      {"lshape",
+       "self-shadowing at silhouettes and light at the foot of a crease: Weiskopf & Ertl 2003, figure 5.",
+       makeLshape},
+      {"double-torus",
+       "self-unshadowing of midpoint maps on curved solids, and its filtering: Weiskopf & Ertl 2003, figure "
+       "6.",
+       makeDoubleTorus},
+      {"factory",
+       "thin and thick casters side by side, at the size of a real scene: Weiskopf & Ertl 2003, figure 7.",
+       makeFactory},
+      {"atrium",
+       "acne on steep columns and detachment under arches, lit from inside: the class of Dou et al. 2014.",
+       makeAtrium},
+      {"corner", "acne alone: nothing casts a shadow in a concave corner of three planes.", makeCorner},
+      {"grate",
+       "thin casters near the light, whose shadows fan out, and shafts: Wyman 2011, Dou et al. 2014.",
+       makeGrate},
+      {"sheets", "casters without thickness or back faces: leaves, a curtain and an alpha-masked fence.",
+       makeSheets},
+      {"contact", "detached shadows (peter-panning) where boxes, spheres and cylinders touch the floor.",
+       makeContact},
+      {"slope", "acne as a function of the angle to the light: planes from facing it to 88.5 degrees off.",
+       makeSlope},
+      {"crowd", "vertex work: instances of shared meshes; crowd:N has about N triangles, to 19 million.",
+       makeDefaultCrowd},
+  };
+  return scenes;
+}
+
+const GeneratedScene* findGeneratedScene(const std::string& name) {
+  for (const GeneratedScene& scene : generatedScenes())
+    if (name == scene.name) return &scene;
+  return nullptr;
+}
+
+Scene openScene(const std::string& nameOrPath) {
+  if (const GeneratedScene* generated = findGeneratedScene(nameOrPath)) return generated->make();
+  if (std::optional<Scene> crowd = openSizedCrowd(nameOrPath)) return std::move(*crowd);
+  std::error_code ignored;
+  if (std::filesystem::exists(nameOrPath, ignored)) return loadGltf(nameOrPath);
+  std::string names;
+  for (const GeneratedScene& scene : generatedScenes())
+    names += (names.empty() ? "" : ", ") + std::string(scene.name);
+  throw fileError(nameOrPath, "is neither a file nor a generated scene",
+                  fmt::format("name a .gltf or .glb file, or one of: {}", names));
+}
+
+}  // namespace gnomon
