@@ -2,15 +2,18 @@
 // Why a shadow map is wrong at a pixel, by exact rays.
 //
 //   agree        prediction = truth
-//   acne         predicted shadow where there is light, and the surface is continuous, seen from the light, between the
+//   acne         predicted shadow where there is light, and the surface is continuous, seen from the light,
+//   between the
 //                texel centre's ray and the pixel's: nothing there casts a shadow. The bias failed
-//   leak         predicted light where there is shadow, although the first hit along the texel centre's ray lies before
+//   leak         predicted light where there is shadow, although the first hit along the texel centre's ray
+//   lies before
 //                the receiver's plane: the map held the occluder, the bias stepped over it
 //   edge_shadow  predicted shadow where there is light, across a silhouette: the map is too coarse there
 //   edge_light   predicted light where there is shadow, and no leak
 //   uncovered    the map does not cover the pixel
 //
-// Acne and leak are what a bias is answerable for. "Before" means by more than the end margin of the truth's rays.
+// Acne and leak are what a bias is answerable for. "Before" means by more than the end margin of the truth's
+// rays.
 
 #include "truth/visibility.h"
 
@@ -34,14 +37,17 @@ struct LabelImage {
   size_t count(Label label) const { return counts[static_cast<size_t>(label)]; }
 };
 
-// `texelRay(pixel)`: the light ray through the centre of the texel that decided the pixel, in W. Asked for wrong pixels
-// only, from many threads at once.
-LabelImage labelPixels(const Tracer& tracer, const LightModel& light, const Receivers& receivers, const Truth& truth,
-                       std::span<const Verdict> verdicts, const std::function<RayD(size_t pixel)>& texelRay);
+// `texelRay(pixel)`: the light ray through the centre of the texel that decided the pixel, in W. Asked for
+// wrong pixels only, from many threads at once. Every scored pixel needs a verdict other than NotAsked.
+LabelImage labelPixels(const Tracer& tracer, const LightModel& light, const Receivers& receivers,
+                       const Truth& truth, std::span<const Verdict> verdicts,
+                       const std::function<RayD(size_t pixel)>& texelRay);
 
-// Whether the surface first hit stays in one piece, seen from the light, between two light rays: halves the stretch
-// towards the larger unexplained jump of the first-hit distance kBisectionSteps times (to a thousandth of a texel, when
-// the two rays are at most a texel's half diagonal apart); a jump that is still there is a silhouette.
+// Whether the surface first hit stays in one piece, seen from the light, between two light rays: halves the
+// stretch with the largest jump kBisectionSteps times, to a thousandth of the whole, and judges there
+// (labels.cpp says how). Two hits on one triangle, or on two that are one plane to within the margin, count
+// as one piece whatever stands between: a map that holds the receiver's own plane has nothing to excuse it.
+// Two rays that hit nothing count as one piece too.
 inline constexpr int kBisectionSteps = 10;
 bool continuousBetween(const Tracer& tracer, const RayD& a, const RayD& b, double margin);
 
