@@ -12,8 +12,8 @@ TriangleMeeting meetTriangle(const RayD& ray, const glm::dvec3 corners[3]) {
   TriangleMeeting meeting;
   meeting.edgeOn = determinant == 0.0;
   if (meeting.edgeOn) return meeting;
-  const double v = std::clamp(-glm::dot(ac, q) / determinant, 0.0, 1.0);
-  const double w = std::clamp(glm::dot(ab, q) / determinant, 0.0, 1.0 - v);
+  const double v = std::clamp(glm::dot(ac, q) / determinant, 0.0, 1.0);
+  const double w = std::clamp(-glm::dot(ab, q) / determinant, 0.0, 1.0 - v);
   meeting.weights = {1.0 - v - w, v, w};
   meeting.positionW = corners[0] * meeting.weights.x + corners[1] * v + corners[2] * w;
   meeting.distance = glm::dot(meeting.positionW - ray.origin, ray.dir);
