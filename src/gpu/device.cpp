@@ -213,9 +213,9 @@ struct DeviceBuilder {
     VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
-                       VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT |
-                       VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
+    // Not the performance messages: they object to GENERAL layouts, which are the house rule.
+    info.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
     info.pfnUserCallback = hear;
     info.pUserData = device.messages_.get();
     return info;
@@ -295,6 +295,7 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options) {
   DeviceBuilder builder{*device};
   builder.makeInstance(options.validation || environment("GNOMON_VALIDATION") == "1");
   builder.makeDevice(options.name.empty() ? environment("GNOMON_DEVICE") : options.name);
+  device->info_.mapsDeviceMemory = !options.hideDeviceMemory;
   builder.finish();
   return device;
 }

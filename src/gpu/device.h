@@ -18,6 +18,8 @@ struct DeviceOptions {
   bool validation = false;  // also synchronization validation; or GNOMON_VALIDATION=1 in the environment
   // Also receives every message, those about objects that outlive the device too; must outlive the device.
   std::vector<std::string>* messageSink = nullptr;
+  // Hides from the CPU what a discrete GPU would hide, so that lavapipe takes the staging path too: for tests.
+  bool hideDeviceMemory = false;
 };
 
 struct DeviceInfo {
@@ -32,6 +34,7 @@ struct DeviceInfo {
   uint32_t maxPushConstantBytes = 0;
   uint64_t maxStorageBufferBytes = 0;
   uint64_t maxAllocationBytes = 0;
+  bool mapsDeviceMemory = true;  // where the driver offers it
   bool tessellation = false;
   bool orderedAttachmentAccess = false;  // VK_EXT_rasterization_order_attachment_access, colour
 };

@@ -74,7 +74,8 @@ Allocation allocate(const Device& device, const char* name, const VkMemoryRequir
   vkGetPhysicalDeviceMemoryProperties(device.physical(), &memory);
   // Uncached memory is slow to read from the CPU, so Device memory of that kind goes through staging.
   if (kind == Memory::Device)
-    allocation.mappable = (memory.memoryTypes[info.memoryTypeIndex].propertyFlags & kMappable) == kMappable;
+    allocation.mappable = device.info().mapsDeviceMemory &&
+                          (memory.memoryTypes[info.memoryTypeIndex].propertyFlags & kMappable) == kMappable;
   return allocation;
 }
 

@@ -1,0 +1,94 @@
+#pragma once
+// The fixture of every test that needs a GPU: a device with validation on. Any message of the layers fails
+// the test, those about objects that the test left alive included.
+
+#include "base/file.h"
+#include "gpu/commands.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gnomon::gpu {
+
+class GpuTest : public ::testing::Test {
+ protected:
+  explicit GpuTest(DeviceOptions options = {}) {
+    // A death test starts the program again instead of forking a process that has the driver's threads.
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    options.validation = true;
+    options.messageSink = &messages_;
+    device_ = Device::create(options);
+  }
+
+  // Here and not in TearDown: resources that a derived fixture holds go before the device does.
+  ~GpuTest() override {
+    device_.reset();
+    for (const std::string& message : messages_) ADD_FAILURE() << message;
+  }
+
+  const Device& device() const { return *device_; }
+
+  bool isLavapipe() const { return device_->info().driver.starts_with("llvmpipe"); }
+
+  // In ulps, for what STYLE calls bit-exact on lavapipe; other devices may fuse multiply and add.
+  int exactTolerance() const { return isLavapipe() ? 0 : 4; }
+
+ private:
+  std::vector<std::string> messages_;
+  std::unique_ptr<Device> device_;
+};
+
+// How many floats lie between the two; 0 for equal values and for two NaNs.
+inline int64_t ulpDistance(float a, float b) {
+  if (a == b || (a != a && b != b)) return 0;
+  const auto ordered = [](float value) -> int64_t {
+    const auto bits = std::bit_cast<int32_t>(value);
+    return bits < 0 ? static_cast<int64_t>(INT32_MIN) - bits : bits;
+  };
+  const int64_t distance = ordered(a) - ordered(b);
+  return distance < 0 ? -distance : distance;
+}
+
+// A shader beside the test's source, as "tests/<name>"; it may include any .glsl beside it, and kernel.glsl.
+inline ShaderSource testShader(const std::string& name, const std::filesystem::path& folder) {
+  ShaderSource source{.path = "tests/" + name, .overrides = {}};
+  for (const std::filesystem::path& from : {std::filesystem::path(GNOMON_GPU_TEST_DIR), folder})
+    for (const auto& entry : std::filesystem::directory_iterator(from))
+      if (entry.path().extension() == ".glsl")
+        source.overrides["tests/" + entry.path().filename().string()] = readFile(entry.path());
+  return source;
+}
+#define GNOMON_TEST_SHADER(name) ::gnomon::gpu::testShader(name, GNOMON_TEST_DIR)
+
+// A shader that is not in a file: for a test about the text itself.
+inline ShaderSource inlineShader(const std::string& path, const std::string& text) {
+  return {.path = path, .overrides = {{path, text}}};
+}
+
+// An empty folder of this test's own, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "gnomon-test-XXXXXX").string();
+    if (!::mkdtemp(name.data())) ADD_FAILURE() << "no temporary folder like " << name;
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code failure;
+    std::filesystem::remove_all(path_, failure);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace gnomon::gpu
