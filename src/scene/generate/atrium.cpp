@@ -73,11 +73,9 @@ void addColumn(Scene& scene, int material, const glm::dvec3& foot, double height
   // Plinth and capital turn with the shaft; the top ends 2 cm inside the arches' band.
   const double s = 0.24;
   const std::vector<glm::dvec2> profile = {
-      {1.65 * s, -0.05},         {1.65 * s, 0.12},          {1.45 * s, 0.12},
-      {1.5 * s, 0.19},           {1.3 * s, 0.26},           {1.0 * s, 0.30},
-      {1.03 * s, 1.1},           {0.85 * s, height - 0.42}, {1.0 * s, height - 0.36},
-      {0.95 * s, height - 0.30}, {1.5 * s, height - 0.12},  {1.6 * s, height - 0.12},
-      {1.6 * s, height + 0.02}};
+      {1.6 * s, -0.05},         {1.6 * s, 0.14},         {1.35 * s, 0.22},
+      {1.0 * s, 0.28},          {1.03 * s, 1.1},         {0.85 * s, height - 0.4},
+      {1.5 * s, height - 0.12}, {1.6 * s, height - 0.1}, {1.6 * s, height + 0.02}};
   MeshBuilder builder("column", material);
   builder.placeAt(foot);
   builder.lathe(profile, segments);
@@ -119,7 +117,7 @@ void addArcade(Scene& scene, const Materials& m, const Side& side, int storey) {
   MeshBuilder builder("arcade", m.stone);
   builder.place(placed(side.corner + glm::dvec3(0, storey * kStorey, 0), {0, 1, 0}, side.turn));
   // Reaches 2 cm into the slab above; ends short of its neighbour's face, so that no two faces share a plane.
-  builder.extrude(arcadePolygon(side.bays, 0.2, kSpring, kStorey - kSlab + 0.02, 16), -0.22, 0.22);
+  builder.extrude(arcadePolygon(side.bays, 0.2, kSpring, kStorey - kSlab + 0.02, 12), -0.22, 0.22);
   addMesh(scene, builder.build());
 }
 
@@ -144,13 +142,13 @@ void addBalustrade(Scene& scene, const Materials& m, const Bay& bay) {
   rail.box({0.3, 0.78, -0.09}, {kBay - 0.3, 0.9, 0.09});
   addMesh(scene, rail.build());
   MeshBuilder builder("balusters", m.pale);
-  const std::vector<glm::dvec2> profile = {{0.07, -0.03}, {0.07, 0.08}, {0.045, 0.1}, {0.075, 0.3},
-                                           {0.035, 0.55}, {0.06, 0.7},  {0.06, 0.80}};
-  const int count = 5;
+  const std::vector<glm::dvec2> profile = {
+      {0.065, -0.03}, {0.045, 0.1}, {0.075, 0.3}, {0.035, 0.58}, {0.06, 0.80}};
+  const int count = 4;
   for (int i = 0; i < count; ++i) {
     const double x = 0.45 + (kBay - 0.9) * i / (count - 1);
     builder.place(placed(foot, {0, 1, 0}, bay.turn) * placed({x, 0, 0}, {0, 1, 0}, 0.0));
-    builder.lathe(profile, 10);
+    builder.lathe(profile, 6);
   }
   addMesh(scene, builder.build());
 }
@@ -162,7 +160,7 @@ void addCurtain(Scene& scene, int material, int rodMaterial, const Bay& bay, int
   MeshBuilder cloth("curtain", material);
   cloth.place(worldFromBay);
   const double phase = 6.28 * hashUnit(seed), left = 0.42, width = kBay - 0.84;
-  cloth.sheet(40, 10, [=](double s, double t) {
+  cloth.sheet(30, 8, [=](double s, double t) {
     const double depth = 0.05 + 0.07 * (1.0 - t);
     const double z = depth * std::sin(34.0 * s + phase) + 0.05 * std::sin(9.0 * s + 2.0 * phase) * (1.0 - t);
     return glm::dvec3(left + width * s, 0.95 + (kSpring - 1.12) * t, -0.05 + z);
@@ -170,7 +168,7 @@ void addCurtain(Scene& scene, int material, int rodMaterial, const Bay& bay, int
   addMesh(scene, cloth.build());
   MeshBuilder rod("rod", rodMaterial);
   rod.place(worldFromBay);
-  rod.cylinder({0.1, kSpring - 0.1, -0.05}, {kBay - 0.1, kSpring - 0.1, -0.05}, 0.025, 10);
+  rod.cylinder({0.1, kSpring - 0.1, -0.05}, {kBay - 0.1, kSpring - 0.1, -0.05}, 0.025, 8);
   addMesh(scene, rod.build());
 }
 
@@ -181,19 +179,19 @@ void addFurniture(Scene& scene, const Materials& m) {
   for (int k = 0; k < 4; ++k) {
     MeshBuilder builder("urn", m.clay);
     builder.placeAt({k % 2 ? 5.4 : -5.4, 0, k < 2 ? -2.1 : 2.1});
-    builder.lathe(urn, 24);
+    builder.lathe(urn, 16);
     addMesh(scene, builder.build());
   }
   // A fountain in the middle: basin, stem, bowl.
   const std::vector<glm::dvec2> basin = {{1.5, -0.02}, {1.5, 0.10},  {1.35, 0.14}, {1.35, 0.45}, {1.5, 0.52},
                                          {1.5, 0.58},  {1.25, 0.58}, {1.2, 0.25},  {0.0, 0.25}};
   MeshBuilder pool("basin", m.pale);
-  pool.lathe(basin, 32);
+  pool.lathe(basin, 24);
   addMesh(scene, pool.build());
   const std::vector<glm::dvec2> bowl = {{0.22, 0.20}, {0.14, 0.40}, {0.11, 0.95}, {0.2, 1.05}, {0.62, 1.22},
                                         {0.66, 1.3},  {0.58, 1.3},  {0.12, 1.14}, {0.07, 1.5}, {0.0, 1.6}};
   MeshBuilder stem("bowl", m.pale);
-  stem.lathe(bowl, 28);
+  stem.lathe(bowl, 20);
   addMesh(scene, stem.build());
   for (int k = 0; k < 4; ++k) {
     MeshBuilder bench("bench", m.wood);
@@ -218,8 +216,8 @@ Scene makeAtrium() {
     for (int storey : {0, 1}) addArcade(scene, m, side, storey);
     const std::vector<Bay> bays = baysOf(side);
     for (size_t i = 0; i < bays.size(); ++i) {
-      addColumn(scene, m.stone, bays[i].origin, kSpring, 20);
-      addColumn(scene, m.pale, bays[i].origin + glm::dvec3(0, kStorey, 0), kSpring, 16);
+      addColumn(scene, m.stone, bays[i].origin, kSpring, 14);
+      addColumn(scene, m.pale, bays[i].origin + glm::dvec3(0, kStorey, 0), kSpring, 12);
       addBalustrade(scene, m, bays[i]);
       // On the long sides every second bay below has a curtain.
       if (side.bays != kBaysX || i % 2 == 0) continue;

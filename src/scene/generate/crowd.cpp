@@ -105,7 +105,8 @@ Scene makeCrowd(uint64_t triangles) {
 
   // The lamp hangs over the crowd, above the tallest figure (2.5 m).
   const float reach = static_cast<float>(half);
-  addPointLight(scene, "lamp", {-0.25f * reach, 3.0f + 0.12f * reach, 0.2f * reach}, 4.0f * reach * reach);
+  addPointLight(scene, "lamp", {-0.25f * reach, 3.0f + 0.12f * reach, 0.2f * reach},
+                1.6f * reach * reach + 25.0f);
   addDirectionalLight(scene, "sun", {0.6f, -0.7f, -0.35f}, 2.5f);
   addCamera(scene, "crowd", {0.55f * reach, 2.2f + 0.45f * reach, 1.35f * reach},
             {-0.05f * reach, 0.6f, 0.1f * reach}, 50.0f);

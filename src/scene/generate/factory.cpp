@@ -80,8 +80,8 @@ void addSteelwork(Scene& scene, const Materials& m) {
     MeshBuilder struts("struts", m.steel);
     for (int k = 0; k < 8; ++k) {
       const double z = -kHalfZ + 0.75 + 1.35 * k;
-      struts.cylinder({x, kEaves - 0.06, z}, {x, kEaves + 0.86, z + 0.55}, 0.045, 8);
-      struts.cylinder({x, kEaves - 0.06, z + 1.22}, {x, kEaves + 0.86, z + 0.67}, 0.045, 8);
+      struts.cylinder({x, kEaves - 0.06, z}, {x, kEaves + 0.86, z + 0.55}, 0.045, 6);
+      struts.cylinder({x, kEaves - 0.06, z + 1.22}, {x, kEaves + 0.86, z + 0.67}, 0.045, 6);
     }
     addMesh(scene, struts.build());
   }
@@ -95,7 +95,7 @@ void addPulley(Scene& scene, int material, const glm::dvec3& center, double radi
   rim.place(worldFromPulley);
   const std::vector<glm::dvec2> section = {
       {radius - 0.06, -w}, {radius, -w}, {radius + 0.015, 0.0}, {radius, w}, {radius - 0.06, w}};
-  constexpr int kSegments = 28;
+  constexpr int kSegments = 24;
   const int n = static_cast<int>(section.size());
   // The ring closes on itself along the section too, so it is one loop of faceted rows.
   for (int j = 0; j < n; ++j) {
@@ -116,8 +116,8 @@ void addPulley(Scene& scene, int material, const glm::dvec3& center, double radi
   hub.lathe(profile, 20);
   addMesh(scene, hub.build());
   MeshBuilder spokes("pulley spokes", material);
-  for (int k = 0; k < 6; ++k) {
-    spokes.place(worldFromPulley * placed({0, 0, 0}, {0, 1, 0}, 60.0 * k + 11.0));
+  for (int k = 0; k < 5; ++k) {
+    spokes.place(worldFromPulley * placed({0, 0, 0}, {0, 1, 0}, 72.0 * k + 11.0));
     spokes.cylinder({0.10, 0, 0}, {radius - 0.03, 0, 0}, 0.028, 8);
   }
   addMesh(scene, spokes.build());
@@ -148,7 +148,7 @@ void addBelt(Scene& scene, int material, const glm::dvec3& upper, double upperRa
   };
   const auto normal = [&](int i, int) {
     const glm::dvec2 d = glm::normalize(path[(i + 1) % n] - path[(i + n - 1) % n]);
-    return glm::dvec3(0.0, -d.x, d.y);
+    return glm::dvec3(0.0, d.x, -d.y);
   };
   MeshBuilder belt("belt", material);
   belt.loop(n, 1, point, normal);
@@ -171,10 +171,10 @@ void addMachine(Scene& scene, const Materials& m, double x, uint32_t seed) {
   addMesh(scene, head.build());
   MeshBuilder spindle("spindle", m.brass);
   const double axis = height + 0.24;
-  spindle.cylinder({x - 0.34, axis, z}, {x + 0.95, axis, z}, 0.05, 20);
+  spindle.cylinder({x - 0.34, axis, z}, {x + 0.95, axis, z}, 0.05, 18);
   addMesh(scene, spindle.build());
   MeshBuilder chuck("chuck", m.iron);
-  chuck.cylinder({x + 0.44, axis, z}, {x + 0.60, axis, z}, 0.17, 28);
+  chuck.cylinder({x + 0.44, axis, z}, {x + 0.60, axis, z}, 0.17, 24);
   addMesh(scene, chuck.build());
   MeshBuilder tail("tailstock", m.iron);
   tail.box({x + 0.9, height - 0.05, z - 0.16}, {x + 1.25, height + 0.36, z + 0.16});
@@ -188,7 +188,7 @@ void addMachine(Scene& scene, const Materials& m, double x, uint32_t seed) {
 
 void addTransmission(Scene& scene, const Materials& m) {
   MeshBuilder shaft("line shaft", m.iron);
-  shaft.cylinder({-kHalfX + 0.1, kShaftY, kShaftZ}, {kHalfX - 0.2, kShaftY, kShaftZ}, 0.06, 24);
+  shaft.cylinder({-kHalfX + 0.1, kShaftY, kShaftZ}, {kHalfX - 0.2, kShaftY, kShaftZ}, 0.06, 20);
   addMesh(scene, shaft.build());
   for (int i = 0; i < 5; ++i) {
     // A hanger from each truss, with a bearing around the shaft.
@@ -197,7 +197,7 @@ void addTransmission(Scene& scene, const Materials& m) {
     hanger.box({x - 0.06, kShaftY + 0.12, kShaftZ - 0.06}, {x + 0.06, kEaves - 0.15, kShaftZ + 0.06});
     addMesh(scene, hanger.build());
     MeshBuilder bearing("bearing", m.brass);
-    bearing.cylinder({x - 0.14, kShaftY, kShaftZ}, {x + 0.14, kShaftY, kShaftZ}, 0.14, 24);
+    bearing.cylinder({x - 0.14, kShaftY, kShaftZ}, {x + 0.14, kShaftY, kShaftZ}, 0.14, 20);
     addMesh(scene, bearing.build());
   }
   for (int i = 0; i < 4; ++i) addMachine(scene, m, -6.0 + 3.6 * i, 7u * static_cast<uint32_t>(i) + 1u);
@@ -221,7 +221,7 @@ void addPipes(Scene& scene, const Materials& m) {
     for (int i = 0; i < 5; ++i) {
       MeshBuilder flange("flange", m.iron);
       const double fx = -kHalfX + 2.2 + 3.6 * i;
-      flange.cylinder({fx, y, z}, {fx + 0.08, y, z}, 0.15, 16);
+      flange.cylinder({fx, y, z}, {fx + 0.08, y, z}, 0.15, 12);
       addMesh(scene, flange.build());
     }
   }
@@ -260,7 +260,7 @@ void addGoods(Scene& scene, const Materials& m) {
     MeshBuilder drum("drum", k % 3 == 0 ? m.pipe : m.steel);
     drum.placeAt({-6.9 + 0.75 * (k % 3) + 0.1 * hashUnit(100u + k), -0.02,
                   2.2 + 0.8 * (k / 3) + 0.1 * hashUnit(200u + k)});
-    drum.lathe(profile, 24);
+    drum.lathe(profile, 20);
     addMesh(scene, drum.build());
   }
   // Bar stock laid on two trestles.
@@ -296,7 +296,7 @@ Scene makeFactory() {
   addDirectionalLight(scene, "skylight", {-0.50f, -0.72f, -0.48f}, 3.0f);
   addPointLight(scene, "hanging lamp", {1.2f, 4.2f, 1.4f}, 90.0f);
   addPointLight(scene, "work lamp", {-3.9f, 2.6f, 0.3f}, 30.0f);
-  addCamera(scene, "hall", {6.9f, 3.1f, 6.6f}, {-1.2f, 1.9f, -2.2f}, 52.0f);
+  addCamera(scene, "hall", {5.6f, 3.0f, 5.2f}, {-1.4f, 2.0f, -2.4f}, 58.0f);
   addCamera(scene, "line shaft", {-0.6f, 3.6f, 0.9f}, {-3.6f, 3.5f, -3.6f}, 55.0f);
   addCamera(scene, "goods", {0.6f, 2.3f, 6.4f}, {2.6f, 0.6f, 1.6f}, 50.0f);
   return scene;

@@ -9,7 +9,7 @@
 namespace gnomon {
 
 //  +-----------+  the room is open to +z and to the top; the grate stands across it at z = -2,
-//  |     *     |  the lamp behind it at z = -3.1
+//  |     *     |  the lamp behind it at z = -2.9
 //  |-|-|-|-|-|-|
 //  |           |
 Scene makeGrate() {
@@ -51,9 +51,9 @@ Scene makeGrate() {
   crate.box({-0.35, 0.0, -0.35}, {0.35, 0.7, 0.35});
   addMesh(scene, crate.build());
 
-  addPointLight(scene, "lamp", {0.35f, 2.1f, -3.1f}, 36.0f);
+  addPointLight(scene, "lamp", {0.35f, 2.1f, -2.9f}, 26.0f);
   addDirectionalLight(scene, "moon", {0.30f, -0.75f, -0.55f}, 0.6f);
-  addSpotLight(scene, "beam", {0.35f, 2.1f, -3.1f}, {0.2f, 0.4f, 1.5f}, 38.0f, 90.0f);
+  addSpotLight(scene, "beam", {0.35f, 2.1f, -2.9f}, {0.2f, 0.4f, 1.5f}, 38.0f, 90.0f);
   addCamera(scene, "cell", {-1.9f, 2.7f, 6.3f}, {0.25f, 0.9f, -1.2f}, 48.0f);
   addCamera(scene, "bars", {2.6f, 1.5f, 2.2f}, {-0.4f, 1.2f, -2.2f}, 55.0f);
   return scene;

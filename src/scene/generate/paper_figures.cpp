@@ -22,7 +22,7 @@ Scene makeLshape() {
   addMesh(scene, builder.build());
   addDirectionalLight(scene, "right above", {-0.57f, -0.80f, 0.22f}, 3.0f);
   addPointLight(scene, "lamp", {3.4f, 5.0f, -1.3f}, 90.0f);
-  addCamera(scene, "figure 5", {4.6f, 4.6f, 5.2f}, {-0.1f, 0.9f, 0.0f}, 40.0f);
+  addCamera(scene, "figure 5", {4.2f, 4.4f, 4.8f}, {-0.1f, 0.75f, 0.0f}, 36.0f);
   addCamera(scene, "crease", {2.2f, 2.6f, 2.4f}, {-0.1f, 1.2f, -0.1f}, 45.0f);
   return scene;
 }

@@ -24,7 +24,7 @@ namespace gnomon {
 Scene makeSlope() {
   Scene scene;
   scene.name = "slope";
-  const glm::dvec3 lightW(-4.5, 4.5, 2.2), eyeW(0.0, 0.0, 8.5);
+  const glm::dvec3 lightW(-4.6, 4.6, 3.4), eyeW(0.0, 0.0, 8.5);
   constexpr std::array<double, 16> kAngles = {0,  10, 20, 30, 40, 50, 60, 66,
                                               70, 74, 78, 81, 83, 85, 87, 88.5};
   constexpr double kHalf = 0.42, kPitch = 1.5;  // metres
@@ -45,7 +45,7 @@ Scene makeSlope() {
     builder.quad(center - right - up, center + right - up, center + right + up, center - right + up);
     addMesh(scene, builder.build());
   }
-  addPointLight(scene, "lamp", glm::vec3(lightW), 60.0f);
+  addPointLight(scene, "lamp", glm::vec3(lightW), 110.0f);
   addDirectionalLight(scene, "sun", glm::vec3(-lightW), 2.0f);
   addCamera(scene, "tiles", glm::vec3(eyeW), glm::vec3(0.0f), 42.0f);
   return scene;
@@ -63,7 +63,7 @@ Scene makeCorner() {
   builder.quad({0, 0, kSide}, {0, 0, 0}, {0, kSide, 0}, {0, kSide, kSide});
   builder.quad({0, 0, 0}, {kSide, 0, 0}, {kSide, kSide, 0}, {0, kSide, 0});
   addMesh(scene, builder.build());
-  addPointLight(scene, "lamp", {0.9f, 1.3f, 0.7f}, 12.0f);
+  addPointLight(scene, "lamp", {0.9f, 1.3f, 0.7f}, 4.5f);
   addDirectionalLight(scene, "sun", {-0.55f, -0.70f, -0.45f}, 2.0f);
   addCamera(scene, "room", {5.2f, 3.4f, 5.8f}, {1.1f, 1.0f, 1.1f}, 45.0f);
   addCamera(scene, "crease", {2.2f, 1.7f, 2.4f}, {0.0f, 0.35f, 0.0f}, 50.0f);
