@@ -4,7 +4,6 @@
 layout(scalar, binding = kBindPositions) readonly buffer Positions { vec3 positions[]; };
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
 layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
-layout(scalar, binding = kBindMap) readonly buffer Map { MapUniforms uniforms; };
 
 layout(push_constant, scalar) uniform Push { int layer; };
 
@@ -15,5 +14,5 @@ void main() {
   instanceIndex = gl_InstanceIndex;
   uv = uvs[gl_VertexIndex];
   vec3 posW = vec3(instances[gl_InstanceIndex].worldFromMesh * vec4(positions[gl_VertexIndex], 1.0f));
-  gl_Position = uniforms.map.layers[layer].clipFromLight * vec4(lightFromWorld(uniforms.frame, posW), 1.0f);
+  gl_Position = mapLayers[layer].clipFromLight * vec4(lightFromWorld(lightFrame, posW), 1.0f);
 }

@@ -11,7 +11,6 @@ layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 layout(constant_id = 0) const int kMethod = kBiasNone;
 layout(constant_id = 1) const int kDiagnose = 0;
 
-layout(scalar, binding = kBindMap) readonly buffer Map { MapUniforms uniforms; };
 layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
 layout(binding = kBindPrimitiveIds) uniform utexture2D primitiveIds;
 layout(scalar, binding = kBindShade) readonly buffer Shade { ShadeUniforms shade; };
@@ -22,7 +21,7 @@ Tap fetchTap(int layer, ivec2 texel) {
   Tap tap;
   tap.layer = layer;
   tap.texel = texel;
-  tap.ray = mapTexelRay(uniforms.map, layer, mapTexelCenter(uniforms.map, texel));
+  tap.ray = mapTexelRay(shadowMap, layer, mapTexelCenter(shadowMap, texel));
   tap.z1 = texelFetch(mapDepthLayers, ivec3(texel, layer), 0).x;
   return tap;
 }
@@ -47,18 +46,18 @@ void main() {
     if (lightSide * cameraSide > 0.0f) {
       flags = kPixelShaded;
       Receiver receiver;
-      receiver.posL = lightFromWorld(uniforms.frame, surface.position);
-      receiver.normalL = directionFromWorld(uniforms.frame, lightSide > 0.0f ? surface.normal : -surface.normal);
-      MapPoint point = mapProject(uniforms.map, receiver.posL);
+      receiver.posL = lightFromWorld(lightFrame, surface.position);
+      receiver.normalL = directionFromWorld(lightFrame, lightSide > 0.0f ? surface.normal : -surface.normal);
+      MapPoint point = mapProject(shadowMap, receiver.posL);
       result = 1.0f;
       if (point.covered) {
-        Tap tap = fetchTap(point.layer, mapTexel(uniforms.map, point.uv));
+        Tap tap = fetchTap(point.layer, mapTexel(shadowMap, point.uv));
         bool known;
-        bool lit = biasLit(kMethod, uniforms.map, shade.bias, receiver, tap, known);
+        bool lit = biasLit(kMethod, shadowMap, shade.bias, receiver, tap, known);
         result = known ? (lit ? 1.0f : 0.0f) : kUnknownVisibility;
         if (kDiagnose == 1) {
           flags |= kPixelCovered | (lit ? kPixelLit : 0u) | (known ? 0u : kPixelUnknown);
-          if (receiverPlaneDepth(uniforms.map, tap.layer, receiver, tap.ray).grazing) flags |= kPixelGrazing;
+          if (receiverPlaneDepth(shadowMap, tap.layer, receiver, tap.ray).grazing) flags |= kPixelGrazing;
           texelWord = packTexel(tap.layer, tap.texel);
         }
       }

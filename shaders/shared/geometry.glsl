@@ -38,8 +38,8 @@ GNOMON_FN SurfacePoint surfacePoint(Ray ray, vec3 a, vec3 b, vec3 c) {
   vec3 q = cross(toOrigin, ray.dir);
   float determinant = -dot(scaledNormal, ray.dir);
   float scale = determinant == 0.0f ? 0.0f : 1.0f / determinant;
-  float v = clamp(-dot(ac, q) * scale, 0.0f, 1.0f);
-  float w = clamp(dot(ab, q) * scale, 0.0f, 1.0f - v);
+  float v = clamp(dot(ac, q) * scale, 0.0f, 1.0f);
+  float w = clamp(-dot(ab, q) * scale, 0.0f, 1.0f - v);
   SurfacePoint point;
   point.barycentric = vec3(1.0f - v - w, v, w);
   point.position = a * point.barycentric.x + b * v + c * w;

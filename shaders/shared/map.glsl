@@ -13,8 +13,11 @@
 
 #include "shared/geometry.glsl"
 #include "shared/lang.glsl"
+#include "shared/light_frame.glsl"
 
 GNOMON_SHARED_BEGIN
+
+const int kBindMap = 16;  // MapUniforms; declared here, in every shader that includes this file
 
 const int kMapPlanar = 0;  // spot and directional: one clipFromLight matrix a layer
 const int kMaxMapLayers = 6;
@@ -29,8 +32,19 @@ struct ShadowMap {
   int layerCount;
   int side;          // texels
   float sceneScale;  // metres: the diagonal of the scene's bounds
-  MapLayer layers[kMaxMapLayers];
+  GNOMON_CPP_ONLY(MapLayer mapLayers[kMaxMapLayers];)
 };
+
+// A fitted map as a buffer. In GLSL it is declared member by member (GNOMON_MEMBER_ARRAY in lang.glsl says why).
+GNOMON_CPP_ONLY(struct MapUniforms {
+  LightFrame lightFrame;
+  ShadowMap shadowMap;
+};)
+GNOMON_GLSL_ONLY(layout(scalar, binding = kBindMap) readonly buffer MapUniforms {
+  LightFrame lightFrame;
+  ShadowMap shadowMap;
+  MapLayer mapLayers[kMaxMapLayers];
+};)
 
 struct MapPoint {
   int layer;
@@ -110,6 +124,7 @@ GNOMON_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(gnomon::glsl::ShadowMap) == 16 + 6 * 128);
-static_assert(offsetof(gnomon::glsl::ShadowMap, layers) == 16);
+static_assert(offsetof(gnomon::glsl::ShadowMap, mapLayers) == 16);
+static_assert(sizeof(gnomon::glsl::MapUniforms) == 48 + 784);
 #endif
 #endif

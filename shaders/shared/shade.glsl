@@ -10,19 +10,13 @@
 
 GNOMON_SHARED_BEGIN
 
-const int kBindMap = kBindFirstFree;           // MapUniforms
-const int kBindMapDepth = kBindFirstFree + 1;  // the map's layers
-const int kBindPrimitiveIds = kBindFirstFree + 2;
-const int kBindShade = kBindFirstFree + 3;        // ShadeUniforms
-const int kBindVisibility = kBindFirstFree + 4;   // float a pixel
-const int kBindDiagnosis = kBindFirstFree + 5;    // PixelDiagnosis a pixel
-const int kBindRadiance = kBindFirstFree + 6;     // vec3 a pixel
+const int kBindMapDepth = kBindFirstFree;  // the map's layers
+const int kBindPrimitiveIds = kBindFirstFree + 1;
+const int kBindShade = kBindFirstFree + 2;       // ShadeUniforms
+const int kBindVisibility = kBindFirstFree + 3;  // float a pixel
+const int kBindDiagnosis = kBindFirstFree + 4;   // PixelDiagnosis a pixel
+const int kBindRadiance = kBindFirstFree + 5;    // vec3 a pixel
 const int kShadeGroupSide = 8;                    // pixels; the work group is square
-
-struct MapUniforms {
-  LightFrame frame;
-  ShadowMap map;
-};
 
 struct ShadeUniforms {
   CameraView camera;
@@ -63,6 +57,5 @@ GNOMON_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(gnomon::glsl::ShadeUniforms) == 128 + 20 + 16 + 16 + 24);
 static_assert(offsetof(gnomon::glsl::ShadeUniforms, ambient) == 192);
-static_assert(sizeof(gnomon::glsl::MapUniforms) == 48 + 784);
 #endif
 #endif

@@ -32,7 +32,7 @@ struct ProgramInterface {
   VkShaderStageFlags pushConstantStages = 0;
 };
 
-// What a shader's SPIR-V declares in set 0 and as push constants.
+// What a shader's SPIR-V uses of set 0 and as push constants.
 ProgramInterface reflect(const std::vector<uint32_t>& spirv, VkShaderStageFlagBits stage);
 
 class Program {

@@ -44,7 +44,7 @@ MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted)
                       .array = true,
                       .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}),
       uniforms_(gpu::createBufferWith(device, "map uniforms",
-                                      std::vector<glsl::MapUniforms>{{.frame = fitted.frame, .map = fitted.map}})),
+                                      std::vector<glsl::MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}})),
       layerCount_(fitted.map.layerCount) {}
 
 MapRenderer::MapRenderer(const gpu::Device& device)

@@ -101,8 +101,8 @@ FittedMap fitPlanar(const FitInput& input, bool perspective) {
   fitted.map.side = input.side;
   fitted.map.sceneScale = sceneBounds.diagonal();
   const glm::dmat4 clip = clipFromLight(window, range, perspective);
-  fitted.map.layers[0].clipFromLight = glm::mat4(clip);
-  fitted.map.layers[0].lightFromClip = glm::mat4(glm::inverse(clip));
+  fitted.map.mapLayers[0].clipFromLight = glm::mat4(clip);
+  fitted.map.mapLayers[0].lightFromClip = glm::mat4(glm::inverse(clip));
   return fitted;
 }
 
@@ -123,7 +123,7 @@ class SpotParameterization final : public Parameterization {
     return {.type = LightType::Spot,
             .positionW = glm::dvec3(light.positionW),
             .directionW = isSpot ? glm::normalize(glm::dvec3(light.directionW)) : aim,
-            .outerConeRad = isSpot ? static_cast<double>(light.outerConeRad) : kDefaultConeRad};
+            .outerConeRad = static_cast<double>(light.outerConeRad)};
   }
 
   FittedMap fit(const FitInput& input) const override { return fitPlanar(input, true); }

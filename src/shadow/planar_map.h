@@ -13,7 +13,4 @@ namespace gnomon {
 const Parameterization& spotParameterization();
 const Parameterization& directionalParameterization();
 
-// The cone a spot map gives to a light without one: half angle.
-inline constexpr double kDefaultConeRad = 0.7853981633974483;  // 45 degrees
-
 }  // namespace gnomon

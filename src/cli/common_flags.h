@@ -1,0 +1,41 @@
+#pragma once
+// Flags that several verbs share. Knob flags derive from the list of biases (shadow/bias.h).
+
+#include "lab/compare.h"
+
+#include <map>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon {
+
+struct SceneFlags {
+  SetupOptions setup;
+  std::string device;
+};
+// SCENE, --light, --camera, --direction, --cone, --size, --device, --shader-dir, --quiet.
+void addSceneFlags(CLI::App& verb, SceneFlags& flags);
+// Applies --device: a session on the chosen scene.
+Session openSession(const SceneFlags& flags);
+
+struct MethodFlags {
+  std::string maps;
+  std::string biases;
+  int mapSize = 1024;
+  long mapTexels = 0;
+  std::string cull = "solids";
+  std::string epsilonAt = "occluder";
+  std::map<std::string, float> knobs;  // flag -> value
+};
+// --maps, --biases, --map-size, --map-texels, --cull, --epsilon-at and a flag a knob.
+void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases);
+// Throws UsageError.
+CompareOptions compareOptions(const MethodFlags& flags);
+
+// The command line as it was typed, quoted for a shell.
+std::string commandLine();
+
+}  // namespace gnomon

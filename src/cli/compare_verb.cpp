@@ -1,0 +1,69 @@
+#include "base/error.h"
+#include "base/file.h"
+#include "cli/common_flags.h"
+#include "cli/verbs.h"
+#include "lab/results.h"
+#include "lab/table.h"
+#include "lab/threshold.h"
+
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace gnomon {
+
+namespace {
+
+struct CompareFlags {
+  SceneFlags scene;
+  MethodFlags method;
+  std::string out;
+  std::string json;
+  std::vector<std::string> failIf;
+  int repeats = 5;
+};
+
+int runCompare(const CompareFlags& flags) {
+  std::vector<Threshold> thresholds;
+  for (const std::string& text : flags.failIf) thresholds.push_back(parseThreshold(text));
+  CompareOptions options = compareOptions(flags.method);
+  options.outDir = flags.out;
+  options.repeats = flags.repeats;
+
+  const Session session = openSession(flags.scene);
+  const Comparison comparison = compare(session, options);
+  const std::string json = resultsJson(session, flags.scene.setup, comparison, commandLine());
+  if (!flags.out.empty()) writeTextFile(options.outDir / "results.json", json);
+  if (!flags.json.empty()) writeTextFile(flags.json, json);
+
+  std::fputs(comparisonHeader(session, comparison).c_str(), stdout);
+  std::fputs(comparisonTable(comparison).c_str(), stdout);
+  if (!flags.out.empty()) std::printf("wrote %s/results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
+  for (const Threshold& threshold : thresholds) {
+    if (const std::optional<std::string> line = crossed(threshold, comparison.rows)) {
+      std::fprintf(stderr, "gnomon: %s\n", line->c_str());
+      return 3;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+Run addCompareVerb(CLI::App& app) {
+  auto flags = std::make_shared<CompareFlags>();
+  CLI::App* verb = app.add_subcommand("compare", "every chosen map x bias against the exact shadow: table, pictures, results.json");
+  addSceneFlags(*verb, flags->scene);
+  addMethodFlags(*verb, flags->method, "spot", "all");
+  verb->add_option("-o,--out", flags->out, "folder for pictures and results.json; none: the table only");
+  verb->add_option("--json", flags->json, "write results.json here");
+  verb->add_option("--fail-if", flags->failIf,
+                   "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; may be repeated");
+  verb->add_option("--repeats", flags->repeats, "of every timed stage; medians are told")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  return [flags] { return runCompare(*flags); };
+}
+
+}  // namespace gnomon

@@ -1,0 +1,59 @@
+// gnomon: exit code 0 done, 1 the world failed, 2 wrong usage, 3 a --fail-if was crossed.
+
+#include "base/error.h"
+#include "cli/verbs.h"
+#include "lab/results.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace {
+
+using namespace gnomon;
+
+int parseAndRun(int argc, char** argv) {
+  CLI::App app("Gnomon, a shadow laboratory for point lights", "gnomon");
+  app.set_version_flag("--version", gnomonVersion());
+  app.require_subcommand(1);
+  app.option_defaults()->always_capture_default(false);
+  std::vector<std::pair<const char*, Run>> verbs = {{"compare", addCompareVerb(app)},
+                                                    {"render", addRenderVerb(app)},
+                                                    {"scene", addSceneVerb(app)},
+                                                    {"info", addInfoVerb(app)}};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    std::fprintf(stderr, "gnomon: %s (see gnomon --help)\n", error.what());
+    return 2;
+  }
+  for (const auto& [name, run] : verbs)
+    if (app.got_subcommand(name)) return run();
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  setCommandLine(argc, argv);
+  try {
+    return parseAndRun(argc, argv);
+  } catch (const UsageError& error) {
+    std::fprintf(stderr, "gnomon: %s\n", error.what());
+    return 2;
+  } catch (const WorldError& error) {
+    std::fprintf(stderr, "gnomon: %s\n", error.what());
+    return 1;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "gnomon: out of memory; take a smaller --size or --map-size, or a smaller scene\n");
+    return 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "gnomon: %s\n", error.what());
+    return 1;
+  }
+}

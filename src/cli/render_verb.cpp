@@ -1,0 +1,94 @@
+#include "base/error.h"
+#include "cli/common_flags.h"
+#include "cli/verbs.h"
+#include "lab/pictures.h"
+
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+struct RenderFlags {
+  SceneFlags scene;
+  MethodFlags method;
+  std::string out;
+  std::string show = "beauty";
+};
+
+constexpr std::array kShows = {"beauty", "visibility", "truth", "labels", "depth"};
+
+struct Picture {
+  Image8 png;
+  ImageF exr;
+  std::vector<std::string> channels;
+};
+
+ImageF oneChannel(const Session& session, const std::vector<float>& values) {
+  ImageF image(session.view().width, session.view().height, 1);
+  image.values = values;
+  return image;
+}
+
+Picture renderPicture(const Session& session, const CompareOptions& options, const std::string& show) {
+  Passes passes(session.device(), session.view());
+  const Parameterization& parameterization = *options.maps.front();
+  const BiasMethod& bias = *options.biases.front();
+  const Exact exact = computeExact(session, parameterization);
+  if (show == "truth") {
+    const std::vector<float> truth = truthVisibility(exact.receivers, exact.truth);
+    return {visibilityPicture(exact.receivers, truth), oneChannel(session, truth), {"Y"}};
+  }
+  const DrawnMap map = drawMap(session, passes.map, parameterization, exact, options.mapSide, options.cull);
+  if (show == "depth") {
+    const ImageF metres = depthInMetres(session, map);
+    return {depthPicture(metres), metres, {"metres"}};
+  }
+  const Judged judged = judge(session, passes, map, exact, bias.id, biasParams(session, options));
+  if (show == "visibility")
+    return {visibilityPicture(exact.receivers, judged.visibility), oneChannel(session, judged.visibility), {"Y"}};
+  if (show == "labels") {
+    const std::string title = fmt::format("{} {}, {} x {} texels", parameterization.name(), bias.name, options.mapSide, options.mapSide);
+    std::vector<float> numbers;
+    for (const Label label : judged.labels.labels) numbers.push_back(static_cast<float>(label));
+    return {labelPicture(exact.receivers, exact.truth, judged.labels, title), oneChannel(session, numbers), {"label"}};
+  }
+  const ImageF radiance = renderRadiance(session, passes, exact, judged.visibility);
+  return {toSrgb8(radiance), radiance, {"R", "G", "B"}};
+}
+
+int runRender(const RenderFlags& flags) {
+  const std::string extension = std::filesystem::path(flags.out).extension().string();
+  if (extension != ".png" && extension != ".exr")
+    throw UsageError(fmt::format("-o {}: write a .png or an .exr", flags.out));
+  const CompareOptions options = compareOptions(flags.method);
+  if (options.maps.size() != 1 || options.biases.size() != 1)
+    throw UsageError("render draws one configuration: give one --maps and one --biases");
+  const Session session = openSession(flags.scene);
+  const Picture picture = renderPicture(session, options, flags.show);
+  if (extension == ".exr") writeExr(flags.out, picture.exr, picture.channels);
+  else writePng(flags.out, picture.png);
+  std::printf("wrote %s\n", flags.out.c_str());
+  return 0;
+}
+
+}  // namespace
+
+Run addRenderVerb(CLI::App& app) {
+  auto flags = std::make_shared<RenderFlags>();
+  CLI::App* verb = app.add_subcommand("render", "one picture of one configuration, PNG or EXR");
+  addSceneFlags(*verb, flags->scene);
+  addMethodFlags(*verb, flags->method, "spot", "adaptive");
+  verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")->required();
+  verb->add_option("--show", flags->show, "beauty, visibility, truth, labels or depth")
+      ->check(CLI::IsMember(std::vector<std::string>(kShows.begin(), kShows.end())))
+      ->capture_default_str();
+  return [flags] { return runRender(*flags); };
+}
+
+}  // namespace gnomon

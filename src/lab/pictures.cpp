@@ -1,0 +1,174 @@
+#include "lab/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#endif
+#include <stb_easy_font.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+constexpr glm::u8vec3 kNothing(16, 20, 38);       // no surface
+constexpr glm::u8vec3 kDark(44, 46, 52);          // faces away or outside the cone
+constexpr glm::u8vec3 kAgreeLit(222, 222, 222);
+constexpr glm::u8vec3 kAgreeShadow(112, 112, 112);
+constexpr glm::u8vec3 kText(235, 235, 235);
+
+glm::u8vec3 labelColor(Label label) {
+  switch (label) {
+    case Label::NotScored: return kDark;
+    case Label::Agree: return kAgreeLit;
+    case Label::Acne: return {213, 94, 0};          // vermillion
+    case Label::Leak: return {0, 114, 178};         // blue
+    case Label::EdgeShadow: return {240, 228, 66};  // yellow
+    case Label::EdgeLight: return {86, 180, 233};   // sky blue
+    case Label::Uncovered: return {204, 121, 167};  // reddish purple
+  }
+  return {255, 0, 255};
+}
+
+void setPixel(Image8& image, int x, int y, const glm::u8vec3& color) {
+  uint8_t* p = image.at(x, y);
+  for (int c = 0; c < 3; ++c) p[c] = color[c];
+}
+
+void fillRectangle(Image8& image, int x0, int y0, int x1, int y1, const glm::u8vec3& color) {
+  for (int y = std::max(y0, 0); y < std::min(y1, image.height); ++y)
+    for (int x = std::max(x0, 0); x < std::min(x1, image.width); ++x) setPixel(image, x, y, color);
+}
+
+struct LegendEntry {
+  std::string text;
+  glm::u8vec3 color;
+};
+
+std::vector<LegendEntry> legendEntries(const LabelImage& labels, const Receivers& receivers) {
+  std::vector<LegendEntry> entries = {
+      {fmt::format("agree {} (lit, shadow)", labels.count(Label::Agree)), kAgreeLit}};
+  for (const Label label : {Label::Acne, Label::Leak, Label::EdgeShadow, Label::EdgeLight, Label::Uncovered})
+    entries.push_back({fmt::format("{} {}", labelName(label), labels.count(label)), labelColor(label)});
+  entries.push_back({fmt::format("not scored {}", receivers.facingAway + receivers.outsideCone), kDark});
+  return entries;
+}
+
+int textWidth(int scale, const std::string& text) {
+  return stb_easy_font_width(const_cast<char*>(text.c_str())) * scale;
+}
+
+// Lays the legend out in rows; with a canvas it also draws it. Returns the height it takes, pixels.
+int layOutLegend(Image8* canvas, int width, int top, int scale, const std::string& title,
+                 const std::vector<LegendEntry>& entries) {
+  const int line = 12 * scale;
+  const int swatch = 8 * scale;
+  int x = 4 * scale;
+  int y = top + 4 * scale;
+  if (canvas != nullptr) drawText(*canvas, x, y, scale, title, kText);
+  y += line;
+  for (const LegendEntry& entry : entries) {
+    const int needed = swatch + 3 * scale + textWidth(scale, entry.text) + 8 * scale;
+    if (x + needed > width && x > 4 * scale) {
+      x = 4 * scale;
+      y += line;
+    }
+    if (canvas != nullptr) {
+      fillRectangle(*canvas, x, y - scale, x + swatch, y - scale + swatch, entry.color);
+      if (entry.color == kAgreeLit) fillRectangle(*canvas, x + swatch / 2, y - scale, x + swatch, y - scale + swatch, kAgreeShadow);
+      drawText(*canvas, x + swatch + 3 * scale, y, scale, entry.text, kText);
+    }
+    x += needed;
+  }
+  return y + line - top;
+}
+
+}  // namespace
+
+void drawText(Image8& image, int x, int y, int scale, const std::string& text, const glm::u8vec3& color) {
+  struct Vertex {
+    float x, y, z;
+    uint8_t rgba[4];
+  };
+  std::vector<Vertex> vertices(300 * text.size() / 16 * 4 + 1024);
+  const int quads = stb_easy_font_print(0.0f, 0.0f, const_cast<char*>(text.c_str()), nullptr, vertices.data(),
+                                        static_cast<int>(vertices.size() * sizeof(Vertex)));
+  for (int q = 0; q < quads; ++q) {
+    const Vertex& a = vertices[4 * q];
+    const Vertex& c = vertices[4 * q + 2];
+    fillRectangle(image, x + static_cast<int>(a.x) * scale, y + static_cast<int>(a.y) * scale,
+                  x + static_cast<int>(c.x) * scale, y + static_cast<int>(c.y) * scale, color);
+  }
+}
+
+Image8 labelPicture(const Receivers& receivers, const Truth& truth, const LabelImage& labels,
+                    const std::string& title) {
+  const int scale = std::max(1, receivers.width / 500);
+  const std::vector<LegendEntry> entries = legendEntries(labels, receivers);
+  const int legendHeight = layOutLegend(nullptr, receivers.width, 0, scale, title, entries);
+  Image8 image(receivers.width, receivers.height + legendHeight, 3);
+  for (int y = 0; y < receivers.height; ++y) {
+    for (int x = 0; x < receivers.width; ++x) {
+      const size_t i = static_cast<size_t>(y) * receivers.width + x;
+      glm::u8vec3 color = labelColor(labels.labels[i]);
+      if (receivers.states[i] == PixelState::Empty) color = kNothing;
+      else if (labels.labels[i] == Label::Agree && truth.lit[i] == 0) color = kAgreeShadow;
+      setPixel(image, x, y, color);
+    }
+  }
+  fillRectangle(image, 0, receivers.height, image.width, image.height, kNothing);
+  layOutLegend(&image, receivers.width, receivers.height, scale, title, entries);
+  return image;
+}
+
+std::vector<float> truthVisibility(const Receivers& receivers, const Truth& truth) {
+  std::vector<float> visibility(truth.lit.size());
+  for (size_t i = 0; i < visibility.size(); ++i)
+    visibility[i] = receivers.states[i] == PixelState::Empty || truth.lit[i] != 0 ? 1.0f : 0.0f;
+  return visibility;
+}
+
+Image8 visibilityPicture(const Receivers& receivers, std::span<const float> visibility) {
+  Image8 image(receivers.width, receivers.height, 3);
+  for (int y = 0; y < receivers.height; ++y) {
+    for (int x = 0; x < receivers.width; ++x) {
+      const size_t i = static_cast<size_t>(y) * receivers.width + x;
+      glm::u8vec3 color(static_cast<uint8_t>(std::lround(255.0f * std::clamp(visibility[i], 0.0f, 1.0f))));
+      if (visibility[i] < 0.0f) color = {255, 0, 255};
+      else if (receivers.states[i] == PixelState::Empty) color = kNothing;
+      else if (receivers.states[i] == PixelState::FacingAway || receivers.states[i] == PixelState::OutsideCone) color = kDark;
+      setPixel(image, x, y, color);
+    }
+  }
+  return image;
+}
+
+Image8 depthPicture(const ImageF& metres) {
+  float nearest = std::numeric_limits<float>::infinity();
+  float farthest = 0.0f;
+  for (const float d : metres.values) {
+    if (!std::isfinite(d)) continue;
+    nearest = std::min(nearest, d);
+    farthest = std::max(farthest, d);
+  }
+  Image8 image(metres.width, metres.height, 3);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const float d = *metres.at(x, y);
+      const float t = std::clamp((d - nearest) / std::max(farthest - nearest, 1e-9f), 0.0f, 1.0f);
+      const glm::u8vec3 grey(static_cast<uint8_t>(std::lround(245.0f - 215.0f * t)));
+      setPixel(image, x, y, std::isfinite(d) ? grey : kNothing);
+    }
+  }
+  return image;
+}
+
+}  // namespace gnomon

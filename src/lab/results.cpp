@@ -1,0 +1,126 @@
+#include "lab/results.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace gnomon {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const char* lightTypeName(LightType type) {
+  switch (type) {
+    case LightType::Point: return "point";
+    case LightType::Spot: return "spot";
+    case LightType::Directional: return "directional";
+  }
+  return "";
+}
+
+// Floats are written with the digits of a float: 0.1f as 0.1, not as 0.10000000149.
+double shortest(float value) {
+  return std::stod(fmt::format("{}", value));
+}
+
+Json toJson(const glm::vec3& v) {
+  return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)});
+}
+
+Json toJson(const LightModel& light) {
+  Json json;
+  json["type"] = lightTypeName(light.type);
+  if (light.type != LightType::Directional) json["position"] = toJson(glm::vec3(light.positionW));
+  if (light.type != LightType::Point) json["direction"] = toJson(glm::vec3(light.directionW));
+  if (light.type == LightType::Spot)
+    json["cone_degrees"] = shortest(static_cast<float>(2.0 * glm::degrees(light.outerConeRad)));
+  return json;
+}
+
+Json toJson(const TruthSummary& truth) {
+  Json json;
+  json["map"] = truth.map;
+  json["light"] = toJson(truth.light);
+  json["scored"] = truth.scored;
+  json["lit"] = truth.lit;
+  json["facing_away"] = truth.facingAway;
+  json["outside_cone"] = truth.outsideCone;
+  json["margin"] = truth.margin;
+  json["margin_flips_half"] = truth.marginFlipsHalf;
+  json["margin_flips_double"] = truth.marginFlipsDouble;
+  json["z_near"] = shortest(truth.zNear);
+  json["z_far"] = shortest(truth.zFar);
+  json["trace_ms"] = truth.receiversAndTraceMs;
+  json["fit_ms"] = truth.fitMs;
+  return json;
+}
+
+Json toJson(const Row& row) {
+  Json params = Json::object();
+  for (const auto& [name, value] : row.knobs) params[name] = shortest(static_cast<float>(value));
+  if (!row.epsilonAt.empty()) params["epsilon_at"] = row.epsilonAt;
+  params["cull"] = row.cull;
+  Json json;
+  json["map"] = row.map;
+  json["map_size"] = row.mapSide;
+  json["layers"] = row.layers;
+  json["map_texels"] = static_cast<uint64_t>(row.mapSide) * row.mapSide * row.layers;
+  json["bias"] = row.bias;
+  json["params"] = params;
+  json["filter"] = row.filter;
+  json["scored"] = row.scored;
+  json["agree"] = row.agree;
+  json["acne"] = row.acne;
+  json["leak"] = row.leak;
+  json["edge_shadow"] = row.edgeShadow;
+  json["edge_light"] = row.edgeLight;
+  json["uncovered"] = row.uncovered;
+  json["grazing"] = row.grazing;
+  json["bias_error"] = row.biasError();
+  json["rmse"] = row.rmse;
+  json["build_ms"] = row.buildMs;
+  json["shade_ms"] = row.shadeMs;
+  json["pictures"] = row.pictures;
+  return json;
+}
+
+}  // namespace
+
+const char* gnomonVersion() {
+  return GNOMON_VERSION;
+}
+
+std::string resultsJson(const Session& session, const SetupOptions& setup, const Comparison& comparison,
+                        const std::string& command) {
+  const glsl::CameraView& view = session.view();
+  Json json;
+  json["schema"] = kResultsVersion;
+  json["gnomon"] = {{"version", gnomonVersion()},
+                    {"device", session.device().info().name},
+                    {"driver", session.device().info().driver},
+                    {"command", command}};
+  json["scene"] = {{"name", session.scene().name},
+                   {"source", setup.scene},
+                   {"triangles", triangleCount(session.scene())},
+                   {"sceneScale", shortest(computeBounds(session.scene()).diagonal())}};
+  json["light"] = {{"name", session.light().name},
+                   {"type", lightTypeName(session.light().type)},
+                   {"position", toJson(session.light().positionW)},
+                   {"direction", toJson(session.light().directionW)}};
+  json["camera"] = {{"name", session.camera().name},
+                    {"eye", toJson(view.eyeW)},
+                    {"forward", toJson(view.forwardW)},
+                    {"up", toJson(view.upW)},
+                    {"fov_degrees", shortest(glm::degrees(session.camera().yFovRad))},
+                    {"width", view.width},
+                    {"height", view.height}};
+  json["gbuffer_ms"] = comparison.gbufferMs;
+  json["truth"] = toJson(comparison.truths.front());
+  json["truths"] = Json::array();
+  for (const TruthSummary& truth : comparison.truths) json["truths"].push_back(toJson(truth));
+  json["rows"] = Json::array();
+  for (const Row& row : comparison.rows) json["rows"].push_back(toJson(row));
+  return json.dump(2) + "\n";
+}
+
+}  // namespace gnomon

@@ -1,0 +1,168 @@
+#include "lab/session.h"
+
+#include "base/error.h"
+#include "scene/generate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <glm/gtx/component_wise.hpp>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// The scene's own surfaces only; the middle of its bounds where the camera sees nothing.
+glm::dvec3 meanSurface(const Tracer& tracer, const Receivers& receivers) {
+  glm::dvec3 sum(0.0);
+  size_t count = 0;
+  for (size_t i = 0; i < receivers.states.size(); ++i) {
+    if (receivers.states[i] == PixelState::Empty) continue;
+    sum += receivers.samples[i].positionW;
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : glm::dvec3(computeBounds(tracer.scene()).center());
+}
+
+Verdict verdictOf(const glsl::PixelDiagnosis& pixel) {
+  if ((pixel.flags & glsl::kPixelShaded) == 0) return Verdict::NotAsked;
+  if ((pixel.flags & glsl::kPixelCovered) == 0) return Verdict::Uncovered;
+  return (pixel.flags & glsl::kPixelLit) != 0 ? Verdict::Lit : Verdict::Shadow;
+}
+
+}  // namespace
+
+Session::Session(const gpu::DeviceOptions& deviceOptions, const SetupOptions& options)
+    : scene_(openScene(options.scene)),
+      tracer_(std::make_unique<Tracer>(scene_)),
+      device_(gpu::Device::create(deviceOptions)) {
+  const PictureSize size = parseSize(options.size);
+  light_ = chooseLight(options, *tracer_);
+  camera_ = chooseCamera(options, *tracer_);
+  view_ = cameraView(camera_, size.width, size.height);
+  buffers_ = createSceneBuffers(*device_, scene_);
+  gbuffer_ = std::make_unique<GBuffer>(*device_, size.width, size.height);
+  timeGBuffer();
+  ids_ = gpu::downloadAs<glsl::PrimitiveId>(*device_, gbuffer_->primitiveIds());
+  const LightModel anyLight{.type = LightType::Point, .positionW = glm::dvec3(light_.positionW)};
+  aimW_ = meanSurface(*tracer_, computeReceivers(*tracer_, view_, anyLight, ids_));
+}
+
+double Session::timeGBuffer() const {
+  gpu::Commands commands(*device_, "G-buffer");
+  gbuffer_->record(commands, buffers_, view_);
+  return commands.submitAndWait().wallMs;
+}
+
+Exact computeExact(const Session& session, const Parameterization& parameterization) {
+  Exact exact;
+  exact.light = parameterization.lightModel(session.light(), session.aimW());
+  exact.receivers = computeReceivers(session.tracer(), session.view(), exact.light, session.primitiveIds());
+  if (exact.receivers.scored == 0)
+    throw WorldError(fmt::format("light '{}', camera '{}': the camera sees no surface that faces the light; move one of them "
+                                 "with --light or --camera",
+                                 session.light().name, session.camera().name));
+  exact.truth = computeTruth(session.tracer(), exact.light, exact.receivers);
+  return exact;
+}
+
+DrawnMap drawMap(const Session& session, const MapRenderer& renderer, const Parameterization& parameterization,
+                 const Exact& exact, int side, CullMode cull) {
+  const Clock::time_point start = Clock::now();
+  std::vector<glm::dvec3> scored;
+  scored.reserve(exact.receivers.scored);
+  for (size_t i = 0; i < exact.receivers.states.size(); ++i)
+    if (exact.receivers.states[i] == PixelState::Scored) scored.push_back(exact.receivers.samples[i].positionW);
+  DrawnMap map;
+  map.fitted = parameterization.fit({.scene = session.scene(), .light = exact.light, .receiversW = scored, .side = side});
+  map.fitMs = millisecondsSince(start);
+  map.image = std::make_unique<MapImage>(session.device(), map.fitted);
+  map.buildMs = redrawMap(session, renderer, map, exact, cull);
+  return map;
+}
+
+double redrawMap(const Session& session, const MapRenderer& renderer, const DrawnMap& map, const Exact& exact,
+                 CullMode cull) {
+  gpu::Commands commands(session.device(), "shadow map");
+  renderer.record(commands, session.buffers(), *map.image, exact.light, cull);
+  return commands.submitAndWait().wallMs;
+}
+
+double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact, int method,
+                      const glsl::BiasParams& params) {
+  passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, params));
+  gpu::Commands commands(session.device(), "visibility");
+  passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, method, false);
+  return commands.submitAndWait().wallMs;
+}
+
+RayD texelRayW(const FittedMap& fitted, uint32_t texelWord) {
+  const glm::vec2 uv = glsl::mapTexelCenter(fitted.map, glsl::unpackTexel(texelWord));
+  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, glsl::unpackLayer(texelWord), uv);
+  const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
+                                  glm::dvec3(fitted.frame.backW));
+  return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
+          .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))};
+}
+
+Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact, int method,
+             const glsl::BiasParams& params) {
+  passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, params));
+  gpu::Commands commands(session.device(), "visibility, diagnosed");
+  passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, method, true);
+  commands.submitAndWait();
+  const auto diagnosis = gpu::downloadAs<glsl::PixelDiagnosis>(session.device(), passes.visibility.diagnosis());
+
+  Judged judged;
+  judged.visibility = gpu::downloadAs<float>(session.device(), passes.visibility.visibility());
+  judged.verdicts.resize(diagnosis.size());
+  for (size_t i = 0; i < diagnosis.size(); ++i) {
+    judged.verdicts[i] = verdictOf(diagnosis[i]);
+    if (exact.receivers.states[i] == PixelState::Scored && (diagnosis[i].flags & glsl::kPixelGrazing) != 0)
+      ++judged.grazing;
+  }
+  judged.labels = labelPixels(session.tracer(), exact.light, exact.receivers, exact.truth, judged.verdicts,
+                              [&](size_t pixel) { return texelRayW(map.fitted, diagnosis[pixel].texel); });
+  return judged;
+}
+
+ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact, std::span<const float> visibility) {
+  // Exposure: a white surface that faces the light at the median distance of what is lit has radiance 0.75.
+  std::vector<double> squaredDistances;
+  for (size_t i = 0; i < exact.receivers.states.size(); i += 7) {
+    if (exact.truth.lit[i] == 0 || exact.receivers.states[i] != PixelState::Scored) continue;
+    const glm::dvec3 d = exact.receivers.samples[i].positionW - exact.light.positionW;
+    squaredDistances.push_back(exact.light.type == LightType::Directional ? 1.0 : glm::dot(d, d));
+  }
+  double typical = 1.0;
+  if (!squaredDistances.empty()) {
+    const auto middle = squaredDistances.begin() + static_cast<std::ptrdiff_t>(squaredDistances.size() / 2);
+    std::nth_element(squaredDistances.begin(), middle, squaredDistances.end());
+    typical = *middle;
+  }
+  glsl::ShadeUniforms shade = shadeUniforms(session.view(), exact.light, {});
+  const glm::vec3 color = session.light().color / std::max(glm::compMax(session.light().color), 1e-6f);
+  shade.lightColor = color * static_cast<float>(0.75 * typical);
+  shade.ambient = glm::vec3(0.07f, 0.08f, 0.10f);
+  passes.visibility.setUniforms(shade);
+  gpu::upload(session.device(), passes.visibility.visibility(), std::as_bytes(visibility));
+
+  gpu::Commands commands(session.device(), "radiance");
+  passes.radiance.record(commands, session.buffers(), session.gbuffer(), passes.visibility.uniforms(),
+                         passes.visibility.visibility());
+  commands.submitAndWait();
+  ImageF image(session.view().width, session.view().height, 3);
+  image.values = gpu::downloadAs<float>(session.device(), passes.radiance.radiance());
+  return image;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,98 @@
+#pragma once
+// A scene with its light and camera on a device: what every verb of the program starts from, and one configuration of it
+// rendered, traced and labelled.
+
+#include "base/image.h"
+#include "lab/setup.h"
+#include "shadow/visibility_pass.h"
+#include "truth/labels.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+class Session {
+ public:
+  // Opens the scene, chooses light and camera, uploads, draws the G-buffer. Throws WorldError, UsageError.
+  Session(const gpu::DeviceOptions& device, const SetupOptions& options);
+
+  const Scene& scene() const { return scene_; }
+  const Tracer& tracer() const { return *tracer_; }
+  const gpu::Device& device() const { return *device_; }
+  const SceneBuffers& buffers() const { return buffers_; }
+  const GBuffer& gbuffer() const { return *gbuffer_; }
+  const Light& light() const { return light_; }
+  const Camera& camera() const { return camera_; }
+  const glsl::CameraView& view() const { return view_; }
+  std::span<const glsl::PrimitiveId> primitiveIds() const { return ids_; }
+  // The mean of what the camera sees: where a light without a direction is aimed.
+  const glm::dvec3& aimW() const { return aimW_; }
+
+  // Wall clock of drawing the G-buffer once more.
+  double timeGBuffer() const;
+
+ private:
+  Scene scene_;
+  std::unique_ptr<Tracer> tracer_;
+  std::unique_ptr<gpu::Device> device_;
+  SceneBuffers buffers_;
+  std::unique_ptr<GBuffer> gbuffer_;
+  Light light_;
+  Camera camera_;
+  glsl::CameraView view_{};
+  std::vector<glsl::PrimitiveId> ids_;
+  glm::dvec3 aimW_{0.0};
+};
+
+// What is exact about a light as one parameterization takes it: shared by all rows of that map.
+struct Exact {
+  LightModel light;
+  Receivers receivers;
+  Truth truth;
+};
+Exact computeExact(const Session& session, const Parameterization& parameterization);
+
+// A fitted map, drawn.
+struct DrawnMap {
+  FittedMap fitted;
+  std::unique_ptr<MapImage> image;
+  double fitMs = 0.0;
+  double buildMs = 0.0;  // the last drawing, wall clock
+};
+DrawnMap drawMap(const Session& session, const MapRenderer& renderer, const Parameterization& parameterization,
+                 const Exact& exact, int side, CullMode cull);
+double redrawMap(const Session& session, const MapRenderer& renderer, const DrawnMap& map, const Exact& exact,
+                 CullMode cull);
+
+// The passes that turn a map into pixels; one set for all maps of a session.
+struct Passes {
+  MapRenderer map;
+  VisibilityPass visibility;
+  RadiancePass radiance;
+  Passes(const gpu::Device& device, const glsl::CameraView& view)
+      : map(device), visibility(device, view.width, view.height), radiance(device, view.width, view.height) {}
+};
+
+// One visibility pass without diagnosis; wall clock.
+double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact, int method,
+                      const glsl::BiasParams& params);
+
+// One bias on one map: what it says of every pixel, and why it is wrong where it is.
+struct Judged {
+  std::vector<float> visibility;  // one a pixel
+  std::vector<Verdict> verdicts;
+  LabelImage labels;
+  size_t grazing = 0;  // scored pixels whose texel ray does not meet their plane between near and far
+};
+Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact, int method,
+             const glsl::BiasParams& params);
+
+// Linear rgb by a given visibility, exposed so that a typical lit surface is neither dark nor burnt.
+ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact, std::span<const float> visibility);
+
+// The light ray through the centre of the texel that decided a pixel, in the world.
+RayD texelRayW(const FittedMap& fitted, uint32_t texelWord);
+
+}  // namespace gnomon

@@ -1,0 +1,36 @@
+#pragma once
+// From the words of a command line to what is measured: a scene, a light, a camera, a picture size.
+
+#include "scene/scene.h"
+#include "truth/tracer.h"
+
+#include <optional>
+#include <string>
+
+namespace gnomon {
+
+struct SetupOptions {
+  std::string scene;   // a glTF file or a generated scene's name
+  std::string light;   // NAME or x,y,z; empty: the first light, else one above the scene's centre
+  std::string camera;  // NAME or eye:x,y,z,target:x,y,z[,fov:deg]; empty: the first, else one that sees the scene
+  std::string direction;              // x,y,z: the way the light shines; empty: the light's own, else where the camera looks
+  std::optional<double> coneDegrees;  // full angle of a spot
+  std::string size = "1024";          // N or WxH, pixels
+};
+
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+
+// "640x480" or "512". Throws UsageError outside 1..16384.
+PictureSize parseSize(const std::string& text);
+
+// "1,2,3". Throws UsageError that names `flag`.
+glm::vec3 parseVec3(const std::string& flag, const std::string& text);
+
+// Throws UsageError (malformed) or WorldError (no light or camera of that name: lists those there are).
+Light chooseLight(const SetupOptions& options, const Tracer& tracer);
+Camera chooseCamera(const SetupOptions& options, const Tracer& tracer);
+
+}  // namespace gnomon

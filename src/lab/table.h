@@ -1,0 +1,18 @@
+#pragma once
+// The comparison as an aligned table for a terminal, best first.
+
+#include "lab/compare.h"
+
+#include <string>
+
+namespace gnomon {
+
+// Rows by bias error, then by all wrong pixels, then as they ran.
+std::vector<Row> ranked(std::vector<Row> rows);
+
+std::string comparisonTable(const Comparison& comparison);
+
+// What was measured, in two or three lines: scene, light, camera, the instrument's own error.
+std::string comparisonHeader(const Session& session, const Comparison& comparison);
+
+}  // namespace gnomon
