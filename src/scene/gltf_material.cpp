@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -58,20 +59,19 @@ class TextureLoader {
  public:
   TextureLoader(const GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
 
-  // Index into Scene::textures of a glTF texture. Textures of one image share its texels.
-  int load(int texture) {
-    const auto known = textures_.find(texture);
-    if (known != textures_.end()) return known->second;
+  // Adds a glTF texture to the scene. Textures of one image share its texels.
+  void load(int texture) {
     const tinygltf::Texture& source = document_.model().textures[texture];
     if (source.source < 0)
       document_.refuse(fmt::format("texture {} has no PNG or JPEG image", texture), "export it with one");
     glsl::TextureInfo info = loadImage(source.source);
     applySampler(source.sampler, info);
+    textures_.emplace(texture, static_cast<int>(scene_.textures.size()));
     scene_.textures.push_back(info);
-    const int index = static_cast<int>(scene_.textures.size()) - 1;
-    textures_.emplace(texture, index);
-    return index;
   }
+
+  // Index into Scene::textures of a glTF texture that has been loaded.
+  int indexOf(int texture) const { return textures_.at(texture); }
 
  private:
   glsl::TextureInfo loadImage(int image) {
@@ -176,13 +176,20 @@ Material materialOf(const GltfDocument& document, const tinygltf::Material& sour
 }  // namespace
 
 std::vector<UvSource> loadMaterials(const GltfDocument& document, Scene& scene) {
-  std::vector<UvSource> uvSources;
-  TextureLoader textures(document, scene);
   const std::vector<tinygltf::Material>& sources = document.model().materials;
+  // Those that are used, in the file's order: a saved scene gets its textures back under the same numbers.
+  std::set<int> used;
+  for (const tinygltf::Material& source : sources)
+    used.insert(source.pbrMetallicRoughness.baseColorTexture.index);
+  used.erase(-1);
+  TextureLoader textures(document, scene);
+  for (int texture : used) textures.load(texture);
+
+  std::vector<UvSource> uvSources;
   for (size_t i = 0; i < sources.size(); ++i) {
     Material material = materialOf(document, sources[i], static_cast<int>(i));
     const tinygltf::TextureInfo& texture = sources[i].pbrMetallicRoughness.baseColorTexture;
-    if (texture.index >= 0) material.baseColorTexture = textures.load(texture.index);
+    if (texture.index >= 0) material.baseColorTexture = textures.indexOf(texture.index);
     uvSources.push_back(uvSourceOf(texture));
     scene.materials.push_back(std::move(material));
   }

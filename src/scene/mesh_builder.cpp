@@ -244,7 +244,26 @@ void MeshBuilder::sheet(int columns, int rows, const std::function<glm::dvec3(do
   }
 }
 
+// The tips of closed shapes leave a vertex that no triangle uses, which would not come back from a file.
+void MeshBuilder::dropUnusedVertices() {
+  std::vector<uint32_t> kept(mesh_.positions.size(), 0);
+  for (uint32_t index : mesh_.indices) kept[index] = 1;
+  uint32_t count = 0;
+  for (size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i] == 0) continue;
+    mesh_.positions[count] = mesh_.positions[i];
+    mesh_.normals[count] = mesh_.normals[i];
+    mesh_.uvs[count] = mesh_.uvs[i];
+    kept[i] = count++;
+  }
+  mesh_.positions.resize(count);
+  mesh_.normals.resize(count);
+  mesh_.uvs.resize(count);
+  for (uint32_t& index : mesh_.indices) index = kept[index];
+}
+
 Mesh MeshBuilder::build() {
+  dropUnusedVertices();
   mesh_.closed = computeClosed(mesh_);
   return std::move(mesh_);
 }

@@ -69,6 +69,8 @@ class MeshBuilder {
   void triangle(uint32_t a, uint32_t b, uint32_t c);
   void disc(std::span<const glm::dvec3> ring, const glm::dvec3& normal);
 
+  void dropUnusedVertices();
+
   Mesh mesh_;
   glm::dmat4 worldFromShape_{1.0};
 };

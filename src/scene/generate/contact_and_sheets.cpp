@@ -75,7 +75,7 @@ void addFenceTexture(Scene& scene) {
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
       const bool bar = x < 4 || y < 4;
-      scene.texels.push_back(bar ? 0xff4f8fb4u : 0x004f8fb4u);
+      scene.texels.push_back(bar ? 0xff4f8fb4u : 0u);
     }
   }
   scene.textures.push_back(info);
