@@ -261,7 +261,6 @@ void Tracer::Impl::tracePacket(std::span<const ShadowSegment> segments, double e
               .heights = heights,
               .enough = enough};
   rtcInitIntersectContext(&query.rtc);
-  query.rtc.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   alignas(64) int valid[kPacket] = {};
   RTCRay16 rays = {};
   for (unsigned i = 0; i < segments.size(); ++i) {

@@ -16,12 +16,15 @@ const glm::dvec3 kLight(0.2, 6.0, -0.3);
 
 RayD from(const glm::dvec3& lightW, const glm::dvec3& to) { return {lightW, glm::normalize(to - lightW)}; }
 
-bool continuous(const Scene& scene, const glm::dvec3& a, const glm::dvec3& b) {
-  const Tracer tracer(scene);
-  const double margin = endMargin(scene);
+bool continuous(const Tracer& tracer, const glm::dvec3& a, const glm::dvec3& b) {
+  const double margin = endMargin(tracer.scene());
   const bool there = continuousBetween(tracer, from(kLight, a), from(kLight, b), margin);
   EXPECT_EQ(there, continuousBetween(tracer, from(kLight, b), from(kLight, a), margin)) << "not symmetric";
   return there;
+}
+
+bool continuous(const Scene& scene, const glm::dvec3& a, const glm::dvec3& b) {
+  return continuous(Tracer(scene), a, b);
 }
 
 TEST(Continuity, ConvexCreaseIsOnePiece) {
@@ -45,12 +48,13 @@ TEST(Continuity, TessellatedSphereIsOnePiece) {
   for (const int rings : {8, 40, 300}) {
     Scene scene = emptyScene();
     addSphere(scene, {0, 1, 0}, 1.0, rings, 2 * rings);
+    const Tracer tracer(scene);
     std::mt19937 random(23);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (int i = 0; i < 200; ++i) {
       const glm::dvec3 a = glm::normalize(glm::dvec3(unit(random), 1.2, unit(random)));
       const glm::dvec3 b = glm::normalize(a + 0.05 * glm::dvec3(unit(random), unit(random), unit(random)));
-      EXPECT_TRUE(continuous(scene, glm::dvec3(0, 1, 0) + 0.99 * a, glm::dvec3(0, 1, 0) + 0.99 * b)) << rings << " " << i;
+      EXPECT_TRUE(continuous(tracer, glm::dvec3(0, 1, 0) + 0.99 * a, glm::dvec3(0, 1, 0) + 0.99 * b)) << rings << " " << i;
     }
   }
 }
