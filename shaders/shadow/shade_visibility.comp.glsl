@@ -1,7 +1,8 @@
 // One visibility shader for every map and every bias: G-buffer pixel -> receiver -> tap -> lit or not.
 //
-// The method is a specialization constant, so that each pipeline holds one bias only. kDiagnose also writes
-// what decided the pixel; timings are taken without it.
+// The method, the map's kind and its layer count are specialization constants, so that each pipeline holds one bias on one
+// map only, and reads the matrices of a single layer from constant addresses. kDiagnose also writes what decided the
+// pixel; timings are taken without it.
 #include "shared/shade.glsl"
 
 #include "scene/surface_fetch.glsl"
@@ -10,6 +11,8 @@ layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 
 layout(constant_id = 0) const int kMethod = kBiasNone;
 layout(constant_id = 1) const int kDiagnose = 0;
+layout(constant_id = 2) const int kMapKind = kMapPlanar;
+layout(constant_id = 3) const int kLayerCount = 1;
 
 layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
 layout(binding = kBindPrimitiveIds) uniform utexture2D primitiveIds;
@@ -17,11 +20,18 @@ layout(scalar, binding = kBindShade) readonly buffer Shade { ShadeUniforms shade
 layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagnosis diagnosis[]; };
 
-Tap fetchTap(int layer, ivec2 texel) {
+ShadowMap specializedMap() {
+  ShadowMap map = shadowMap;
+  map.kind = kMapKind;
+  map.layerCount = kLayerCount;
+  return map;
+}
+
+Tap fetchTap(ShadowMap map, int layer, ivec2 texel) {
   Tap tap;
   tap.layer = layer;
   tap.texel = texel;
-  tap.ray = mapTexelRay(shadowMap, layer, mapTexelCenter(shadowMap, texel));
+  tap.ray = mapTexelRay(map, layer, mapTexelCenter(map, texel));
   tap.z1 = texelFetch(mapDepthLayers, ivec3(texel, layer), 0).x;
   return tap;
 }
@@ -48,16 +58,17 @@ void main() {
       Receiver receiver;
       receiver.posL = lightFromWorld(lightFrame, surface.position);
       receiver.normalL = directionFromWorld(lightFrame, lightSide > 0.0f ? surface.normal : -surface.normal);
-      MapPoint point = mapProject(shadowMap, receiver.posL);
+      ShadowMap map = specializedMap();
+      MapPoint point = mapProject(map, receiver.posL);
       result = 1.0f;
       if (point.covered) {
-        Tap tap = fetchTap(point.layer, mapTexel(shadowMap, point.uv));
+        Tap tap = fetchTap(map, point.layer, mapTexel(map, point.uv));
         bool known;
-        bool lit = biasLit(kMethod, shadowMap, shade.bias, receiver, tap, known);
+        bool lit = biasLit(kMethod, map, shade.bias, receiver, tap, known);
         result = known ? (lit ? 1.0f : 0.0f) : kUnknownVisibility;
         if (kDiagnose == 1) {
           flags |= kPixelCovered | (lit ? kPixelLit : 0u) | (known ? 0u : kPixelUnknown);
-          if (receiverPlaneDepth(shadowMap, tap.layer, receiver, tap.ray).grazing) flags |= kPixelGrazing;
+          if (receiverPlaneDepth(map, tap.layer, receiver, tap.ray).grazing) flags |= kPixelGrazing;
           texelWord = packTexel(tap.layer, tap.texel);
         }
       }

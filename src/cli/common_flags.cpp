@@ -57,16 +57,16 @@ void addSceneFlags(CLI::App& verb, SceneFlags& flags) {
   SetupOptions& setup = flags.setup;
   verb.add_option("SCENE", setup.scene, "a glTF file (.gltf, .glb), or a generated scene: `gnomon scene` lists them")->required();
   verb.add_option("--light", setup.light,
-                  "NAME of a light of the scene, or x,y,z in metres; default: the scene's first light, else one above its centre "
-                  "(under the roof, where there is one)");
+                  "NAME of a light of the scene, or x,y,z in metres; default: the scene's first light that the map can take, else one "
+                  "above its centre (under the roof, where there is one)");
   verb.add_option("--camera", setup.camera,
                   "NAME of a camera of the scene, or eye:x,y,z,target:x,y,z[,fov:degrees] (vertical); default: the scene's first "
                   "camera, else one that sees the scene");
   verb.add_option("--direction", setup.direction,
                   "x,y,z: the way the light shines, for spot and directional maps; default: the light's own (spot, directional), "
-                  "else from the light to the mean of the surfaces the camera sees");
+                  "else (a point light) the mean direction of the surfaces in the picture that it lights");
   verb.add_option("--cone", setup.coneDegrees,
-                  "full angle of the spot's cone, degrees; default: the light's own (spot), else 90. Pixels outside are dark and "
+                  "full angle of the spot's cone, degrees; default: the light's own (spot), else 120. Pixels outside are dark and "
                   "not scored");
   verb.add_option("--size", setup.size, "picture size: N or WxH, pixels")->capture_default_str();
   verb.add_option("--device", flags.device,

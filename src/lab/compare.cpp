@@ -18,6 +18,7 @@ using Clock = std::chrono::steady_clock;
 
 TruthSummary summarize(const Parameterization& map, const Exact& exact) {
   return {.map = map.name(),
+          .lightName = exact.source.name,
           .light = exact.light,
           .scored = exact.receivers.scored,
           .facingAway = exact.receivers.facingAway,

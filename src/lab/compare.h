@@ -50,6 +50,7 @@ struct Row {
 // What was exact for one map's light.
 struct TruthSummary {
   std::string map;
+  std::string lightName;
   LightModel light;
   size_t scored = 0, facingAway = 0, outsideCone = 0, lit = 0;
   size_t marginFlipsHalf = 0, marginFlipsDouble = 0;

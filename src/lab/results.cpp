@@ -27,8 +27,9 @@ Json toJson(const glm::vec3& v) {
   return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)});
 }
 
-Json toJson(const LightModel& light) {
+Json toJson(const std::string& name, const LightModel& light) {
   Json json;
+  json["name"] = name;
   json["type"] = lightTypeName(light.type);
   if (light.type != LightType::Directional) json["position"] = toJson(glm::vec3(light.positionW));
   if (light.type != LightType::Point) json["direction"] = toJson(glm::vec3(light.directionW));
@@ -40,7 +41,7 @@ Json toJson(const LightModel& light) {
 Json toJson(const TruthSummary& truth) {
   Json json;
   json["map"] = truth.map;
-  json["light"] = toJson(truth.light);
+  json["light"] = toJson(truth.lightName, truth.light);
   json["scored"] = truth.scored;
   json["lit"] = truth.lit;
   json["facing_away"] = truth.facingAway;
@@ -103,10 +104,7 @@ std::string resultsJson(const Session& session, const SetupOptions& setup, const
                    {"source", setup.scene},
                    {"triangles", triangleCount(session.scene())},
                    {"sceneScale", shortest(computeBounds(session.scene()).diagonal())}};
-  json["light"] = {{"name", session.light().name},
-                   {"type", lightTypeName(session.light().type)},
-                   {"position", toJson(session.light().positionW)},
-                   {"direction", toJson(session.light().directionW)}};
+  json["light"] = toJson(comparison.truths.front().lightName, comparison.truths.front().light);
   json["camera"] = {{"name", session.camera().name},
                     {"eye", toJson(view.eyeW)},
                     {"forward", toJson(view.forwardW)},

@@ -21,16 +21,18 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// The scene's own surfaces only; the middle of its bounds where the camera sees nothing.
-glm::dvec3 meanSurface(const Tracer& tracer, const Receivers& receivers) {
+// Where a light without a direction is made to shine: the mean direction of the surfaces in the picture that it lights
+// (of all it faces, where it lights none). Directions and not points, so that what is near does not outweigh what is far.
+glm::dvec3 aimOf(const Session& session, const Light& light) {
+  const LightModel point{.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};
+  const Receivers receivers = computeReceivers(session.tracer(), session.view(), point, session.primitiveIds());
+  const Truth truth = computeTruth(session.tracer(), point, receivers);
   glm::dvec3 sum(0.0);
-  size_t count = 0;
   for (size_t i = 0; i < receivers.states.size(); ++i) {
-    if (receivers.states[i] == PixelState::Empty) continue;
-    sum += receivers.samples[i].positionW;
-    ++count;
+    if (receivers.states[i] != PixelState::Scored || (truth.litCount > 0 && truth.lit[i] == 0)) continue;
+    sum += glm::normalize(receivers.samples[i].positionW - point.positionW);
   }
-  return count > 0 ? sum / static_cast<double>(count) : glm::dvec3(computeBounds(tracer.scene()).center());
+  return glm::length(sum) > 0.0 ? glm::normalize(sum) : glm::dvec3(0, -1, 0);
 }
 
 Verdict verdictOf(const glsl::PixelDiagnosis& pixel) {
@@ -42,19 +44,17 @@ Verdict verdictOf(const glsl::PixelDiagnosis& pixel) {
 }  // namespace
 
 Session::Session(const gpu::DeviceOptions& deviceOptions, const SetupOptions& options)
-    : scene_(openScene(options.scene)),
+    : setup_(options),
+      scene_(openScene(options.scene)),
       tracer_(std::make_unique<Tracer>(scene_)),
       device_(gpu::Device::create(deviceOptions)) {
   const PictureSize size = parseSize(options.size);
-  light_ = chooseLight(options, *tracer_);
   camera_ = chooseCamera(options, *tracer_);
   view_ = cameraView(camera_, size.width, size.height);
   buffers_ = createSceneBuffers(*device_, scene_);
   gbuffer_ = std::make_unique<GBuffer>(*device_, size.width, size.height);
   timeGBuffer();
   ids_ = gpu::downloadAs<glsl::PrimitiveId>(*device_, gbuffer_->primitiveIds());
-  const LightModel anyLight{.type = LightType::Point, .positionW = glm::dvec3(light_.positionW)};
-  aimW_ = meanSurface(*tracer_, computeReceivers(*tracer_, view_, anyLight, ids_));
 }
 
 double Session::timeGBuffer() const {
@@ -65,12 +65,14 @@ double Session::timeGBuffer() const {
 
 Exact computeExact(const Session& session, const Parameterization& parameterization) {
   Exact exact;
-  exact.light = parameterization.lightModel(session.light(), session.aimW());
+  exact.source = chooseLight(session.setup(), session.tracer(), parameterization);
+  const glm::dvec3 aimW = exact.source.type == LightType::Point ? aimOf(session, exact.source) : glm::dvec3(0.0);
+  exact.light = parameterization.lightModel(exact.source, aimW);
   exact.receivers = computeReceivers(session.tracer(), session.view(), exact.light, session.primitiveIds());
   if (exact.receivers.scored == 0)
     throw WorldError(fmt::format("light '{}', camera '{}': the camera sees no surface that faces the light; move one of them "
                                  "with --light or --camera",
-                                 session.light().name, session.camera().name));
+                                 exact.source.name, session.camera().name));
   exact.truth = computeTruth(session.tracer(), exact.light, exact.receivers);
   return exact;
 }
@@ -150,7 +152,7 @@ ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact
     typical = *middle;
   }
   glsl::ShadeUniforms shade = shadeUniforms(session.view(), exact.light, {});
-  const glm::vec3 color = session.light().color / std::max(glm::compMax(session.light().color), 1e-6f);
+  const glm::vec3 color = exact.source.color / std::max(glm::compMax(exact.source.color), 1e-6f);
   shade.lightColor = color * static_cast<float>(0.75 * typical);
   shade.ambient = glm::vec3(0.07f, 0.08f, 0.10f);
   passes.visibility.setUniforms(shade);

@@ -15,7 +15,7 @@ namespace gnomon {
 
 class Session {
  public:
-  // Opens the scene, chooses light and camera, uploads, draws the G-buffer. Throws WorldError, UsageError.
+  // Opens the scene, chooses the camera, uploads, draws the G-buffer. Throws WorldError, UsageError.
   Session(const gpu::DeviceOptions& device, const SetupOptions& options);
 
   const Scene& scene() const { return scene_; }
@@ -23,32 +23,30 @@ class Session {
   const gpu::Device& device() const { return *device_; }
   const SceneBuffers& buffers() const { return buffers_; }
   const GBuffer& gbuffer() const { return *gbuffer_; }
-  const Light& light() const { return light_; }
   const Camera& camera() const { return camera_; }
   const glsl::CameraView& view() const { return view_; }
   std::span<const glsl::PrimitiveId> primitiveIds() const { return ids_; }
-  // The mean of what the camera sees: where a light without a direction is aimed.
-  const glm::dvec3& aimW() const { return aimW_; }
+  const SetupOptions& setup() const { return setup_; }
 
   // Wall clock of drawing the G-buffer once more.
   double timeGBuffer() const;
 
  private:
+  SetupOptions setup_;
   Scene scene_;
   std::unique_ptr<Tracer> tracer_;
   std::unique_ptr<gpu::Device> device_;
   SceneBuffers buffers_;
   std::unique_ptr<GBuffer> gbuffer_;
-  Light light_;
   Camera camera_;
   glsl::CameraView view_{};
   std::vector<glsl::PrimitiveId> ids_;
-  glm::dvec3 aimW_{0.0};
 };
 
 // What is exact about a light as one parameterization takes it: shared by all rows of that map.
 struct Exact {
-  LightModel light;
+  Light source;      // as the scene or the command line has it
+  LightModel light;  // as the map takes it
   Receivers receivers;
   Truth truth;
 };

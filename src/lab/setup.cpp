@@ -7,8 +7,6 @@
 #include <cmath>
 #include <sstream>
 
-#include <glm/gtc/constants.hpp>
-
 #include <fmt/format.h>
 
 namespace gnomon {
@@ -84,6 +82,29 @@ Camera cameraThatSees(const Tracer& tracer) {
   return lookAt("sees the scene", eye, bounds.center(), kFov);
 }
 
+// The first light of a kind the map is made for, else the first it can make do with.
+Light firstLightFor(const Tracer& tracer, const Parameterization& map) {
+  for (const auto wanted : {Parameterization::Takes::Yes, Parameterization::Takes::IfNothingElse})
+    for (const Light& light : tracer.scene().lights)
+      if (map.takes(light.type) == wanted) return light;
+  return lightAboveCenter(tracer);
+}
+
+Light findLight(const Scene& scene, const std::string& text) {
+  const auto named = std::ranges::find(scene.lights, text, &Light::name);
+  if (named != scene.lights.end()) return *named;
+  const std::optional<glm::vec3> position = tryVec3(text);
+  if (!position)
+    throw WorldError(fmt::format("--light {}: the scene has no light of this name; it has {}; or write x,y,z", text,
+                                 namesOf(scene.lights)));
+  Light light;
+  light.name = text;
+  light.positionW = *position;
+  const float distance = std::max(glm::distance(*position, computeBounds(scene).center()), 1e-3f);
+  light.intensity = 10.0f * distance * distance;
+  return light;
+}
+
 // eye:x,y,z,target:x,y,z[,fov:deg]
 Camera parseCamera(const std::string& text) {
   std::optional<glm::vec3> eye, target;
@@ -140,38 +161,24 @@ glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
   return *v;
 }
 
-Light chooseLight(const SetupOptions& options, const Tracer& tracer) {
+Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {
   const Scene& scene = tracer.scene();
-  Light light;
-  const auto named = std::ranges::find(scene.lights, options.light, &Light::name);
-  if (!options.light.empty() && named != scene.lights.end()) {
-    light = *named;
-  } else if (const std::optional<glm::vec3> position = tryVec3(options.light)) {
-    light.name = options.light;
-    light.positionW = *position;
-    const float distance = std::max(glm::distance(*position, computeBounds(scene).center()), 1e-3f);
-    light.intensity = 10.0f * distance * distance;
-  } else if (!options.light.empty()) {
-    throw WorldError(fmt::format("--light {}: the scene has no light of this name; it has {}; or write x,y,z", options.light,
-                                 namesOf(scene.lights)));
-  } else {
-    light = scene.lights.empty() ? lightAboveCenter(tracer) : scene.lights.front();
-  }
-
+  Light light = options.light.empty() ? firstLightFor(tracer, map) : findLight(scene, options.light);
   if (!options.direction.empty()) {
     const glm::vec3 direction = parseVec3("--direction", options.direction);
     if (glm::length(direction) == 0.0f) throw UsageError("--direction 0,0,0 has no direction; write x,y,z");
     light.directionW = glm::normalize(direction);
-    if (light.type == LightType::Point) {
-      light.type = LightType::Spot;
-      light.outerConeRad = glm::quarter_pi<float>();
-    }
+    if (light.type == LightType::Point) light.type = LightType::Spot;
   }
   if (options.coneDegrees) {
     if (!(*options.coneDegrees >= 1.0 && *options.coneDegrees <= 170.0))
       throw UsageError(fmt::format("--cone {}: a spot's full angle is 1..170 degrees", *options.coneDegrees));
     light.outerConeRad = static_cast<float>(glm::radians(0.5 * *options.coneDegrees));
   }
+  if (map.takes(light.type) == Parameterization::Takes::No)
+    throw WorldError(fmt::format("--light {}: a directional light has no position, so a {} map cannot be made of it; take "
+                                 "--maps directional, or another light, or x,y,z",
+                                 light.name, map.name()));
   return light;
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 // From the words of a command line to what is measured: a scene, a light, a camera, a picture size.
 
-#include "scene/scene.h"
-#include "truth/tracer.h"
+#include "shadow/parameterization.h"
 
 #include <optional>
 #include <string>
@@ -11,7 +10,7 @@ namespace gnomon {
 
 struct SetupOptions {
   std::string scene;   // a glTF file or a generated scene's name
-  std::string light;   // NAME or x,y,z; empty: the first light, else one above the scene's centre
+  std::string light;   // NAME or x,y,z; empty: the first light the map can take, else one above the scene's centre
   std::string camera;  // NAME or eye:x,y,z,target:x,y,z[,fov:deg]; empty: the first, else one that sees the scene
   std::string direction;              // x,y,z: the way the light shines; empty: the light's own, else where the camera looks
   std::optional<double> coneDegrees;  // full angle of a spot
@@ -29,8 +28,11 @@ PictureSize parseSize(const std::string& text);
 // "1,2,3". Throws UsageError that names `flag`.
 glm::vec3 parseVec3(const std::string& flag, const std::string& text);
 
-// Throws UsageError (malformed) or WorldError (no light or camera of that name: lists those there are).
-Light chooseLight(const SetupOptions& options, const Tracer& tracer);
+// The light a map is made for. Throws UsageError (malformed) or WorldError (none of that name: lists those there are; or one
+// that the map cannot take).
+Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map);
+
+// Throws UsageError (malformed) or WorldError (none of that name: lists those there are).
 Camera chooseCamera(const SetupOptions& options, const Tracer& tracer);
 
 }  // namespace gnomon

@@ -46,16 +46,15 @@ std::string comparisonTable(const Comparison& comparison) {
 }
 
 std::string comparisonHeader(const Session& session, const Comparison& comparison) {
-  std::string text = fmt::format("{}: {} triangles, diagonal {:.4g} m; light '{}', camera '{}', {} x {}; {}\n",
+  std::string text = fmt::format("{}: {} triangles, diagonal {:.4g} m; camera '{}', {} x {}; {}\n",
                                  session.scene().name, triangleCount(session.scene()),
-                                 computeBounds(session.scene()).diagonal(), session.light().name,
-                                 session.camera().name, session.view().width, session.view().height,
+                                 computeBounds(session.scene()).diagonal(), session.camera().name, session.view().width, session.view().height,
                                  session.device().info().name);
   for (const TruthSummary& truth : comparison.truths) {
     const double flips = static_cast<double>(std::max(truth.marginFlipsHalf, truth.marginFlipsDouble));
-    text += fmt::format("{}: {} pixels scored ({} lit), {} face away, {} outside the cone; instrument error {:.4f}% "
+    text += fmt::format("{} map of light '{}': {} pixels scored ({} lit), {} face away, {} outside the cone; instrument error {:.4f}% "
                         "(margin {:.2g} m halved {}, doubled {})\n",
-                        truth.map, truth.scored, truth.lit, truth.facingAway, truth.outsideCone,
+                        truth.map, truth.lightName, truth.scored, truth.lit, truth.facingAway, truth.outsideCone,
                         100.0 * flips / static_cast<double>(truth.scored), truth.margin, truth.marginFlipsHalf,
                         truth.marginFlipsDouble);
   }

@@ -53,7 +53,7 @@ struct Light {
   glm::vec3 color{1.0f};                // linear
   float intensity = 1.0f;               // candela (point, spot) or lux (directional)
   float innerConeRad = 0.0f;            // half angles from the axis, spot only
-  float outerConeRad = 0.7853981634f;
+  float outerConeRad = 1.047197551f;  // 60 degrees: what a spot map gives a point light
 };
 
 struct Camera {

@@ -45,7 +45,8 @@ MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted)
                       .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}),
       uniforms_(gpu::createBufferWith(device, "map uniforms",
                                       std::vector<glsl::MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}})),
-      layerCount_(fitted.map.layerCount) {}
+      layerCount_(fitted.map.layerCount),
+      kind_(fitted.map.kind) {}
 
 MapRenderer::MapRenderer(const gpu::Device& device)
     : opaque_(device, depthProgram("draw depth", false)), masked_(device, depthProgram("draw depth, masked", true)) {}

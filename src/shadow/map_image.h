@@ -24,11 +24,13 @@ class MapImage {
   const gpu::Image& depth() const { return depth_; }          // D32, layerCount layers
   const gpu::Buffer& uniforms() const { return uniforms_; }  // glsl::MapUniforms
   int layerCount() const { return layerCount_; }
+  int kind() const { return kind_; }  // glsl::kMap*
 
  private:
   gpu::Image depth_;
   gpu::Buffer uniforms_;
   int layerCount_ = 0;
+  int kind_ = 0;
 };
 
 class MapRenderer {

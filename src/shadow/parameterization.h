@@ -41,8 +41,12 @@ class Parameterization {
   virtual const char* name() const = 0;      // on the command line: --maps spot
   virtual const char* sentence() const = 0;  // for --help
   virtual int layerCount() const = 0;
-  // How a light is taken: a spot map gives any positional light a cone, a directional map makes a sun of it.
-  // `aimW`: where the camera looks, for lights that have no direction of their own.
+  enum class Takes { No, IfNothingElse, Yes };
+  // Whether a light of this kind can be mapped. A spot map takes any positional light; a directional map makes a sun of
+  // one where the scene has no directional light.
+  virtual Takes takes(LightType type) const = 0;
+  // How a light is taken. `aimW` is the unit direction in which a light without one of its own is made to shine.
+  // The light is one that takes() does not refuse.
   virtual LightModel lightModel(const Light& light, const glm::dvec3& aimW) const = 0;
   virtual FittedMap fit(const FitInput& input) const = 0;
 };

@@ -1,6 +1,5 @@
 #include "shadow/planar_map.h"
 
-#include "base/error.h"
 #include "shadow/fit.h"
 
 #include <algorithm>
@@ -112,17 +111,12 @@ class SpotParameterization final : public Parameterization {
   const char* sentence() const override { return "one perspective layer within a cone"; }
   int layerCount() const override { return 1; }
 
+  Takes takes(LightType type) const override { return type == LightType::Directional ? Takes::No : Takes::Yes; }
+
   LightModel lightModel(const Light& light, const glm::dvec3& aimW) const override {
-    if (light.type == LightType::Directional)
-      throw WorldError(fmt::format("light '{}': a directional light has no position, so a spot map cannot be made of it; "
-                                   "use --maps directional, or give --light x,y,z",
-                                   light.name));
-    const bool isSpot = light.type == LightType::Spot;
-    const glm::dvec3 towards = aimW - glm::dvec3(light.positionW);
-    const glm::dvec3 aim = glm::length(towards) > 0.0 ? glm::normalize(towards) : glm::dvec3(0, -1, 0);
     return {.type = LightType::Spot,
             .positionW = glm::dvec3(light.positionW),
-            .directionW = isSpot ? glm::normalize(glm::dvec3(light.directionW)) : aim,
+            .directionW = light.type == LightType::Spot ? glm::normalize(glm::dvec3(light.directionW)) : aimW,
             .outerConeRad = static_cast<double>(light.outerConeRad)};
   }
 
@@ -135,11 +129,13 @@ class DirectionalParameterization final : public Parameterization {
   const char* sentence() const override { return "one orthographic layer; a positional light becomes a sun from its side"; }
   int layerCount() const override { return 1; }
 
+  Takes takes(LightType type) const override {
+    return type == LightType::Directional ? Takes::Yes : Takes::IfNothingElse;
+  }
+
   LightModel lightModel(const Light& light, const glm::dvec3& aimW) const override {
-    const glm::dvec3 towards = light.type == LightType::Point ? aimW - glm::dvec3(light.positionW)
-                                                              : glm::dvec3(light.directionW);
     return {.type = LightType::Directional,
-            .directionW = glm::length(towards) > 0.0 ? glm::normalize(towards) : glm::dvec3(0, -1, 0)};
+            .directionW = light.type == LightType::Point ? aimW : glm::normalize(glm::dvec3(light.directionW))};
   }
 
   FittedMap fit(const FitInput& input) const override { return fitPlanar(input, false); }

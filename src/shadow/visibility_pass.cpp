@@ -44,19 +44,21 @@ void VisibilityPass::setUniforms(const glsl::ShadeUniforms& uniforms) {
   gpu::upload(device_, uniforms_, gpu::asPush(uniforms));
 }
 
-const gpu::ComputeProgram& VisibilityPass::program(int method, bool diagnose) {
+const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
   for (const auto& variant : variants_)
-    if (variant->method == method && variant->diagnose == diagnose) return variant->program;
+    if (variant->key == key) return variant->program;
   variants_.push_back(std::make_unique<Variant>(
-      Variant{method, diagnose,
-              gpu::ComputeProgram(device_, {"shadow/shade_visibility.comp.glsl", {}},
-                                  {{.id = 0, .value = method}, {.id = 1, .value = diagnose ? 1 : 0}})}));
+      Variant{key, gpu::ComputeProgram(device_, {"shadow/shade_visibility.comp.glsl", {}},
+                                       {{.id = 0, .value = key.method},
+                                        {.id = 1, .value = key.diagnose},
+                                        {.id = 2, .value = key.mapKind},
+                                        {.id = 3, .value = key.layerCount}})}));
   return variants_.back()->program;
 }
 
 void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                             const MapImage& map, int method, bool diagnose) {
-  commands.dispatch(program(method, diagnose), groupCount_, {},
+  commands.dispatch(program({method, diagnose ? 1 : 0, map.kind(), map.layerCount()}), groupCount_, {},
                     {{glsl::kBindPositions, scene.positions},
                      {glsl::kBindIndices, scene.indices},
                      {glsl::kBindInstances, scene.instances},

@@ -29,12 +29,16 @@ class VisibilityPass {
   const gpu::Buffer& diagnosis() const { return diagnosis_; }    // glsl::PixelDiagnosis a pixel
 
  private:
+  // Specialization constants of shade_visibility.comp.glsl, in the order of their ids.
+  struct VariantKey {
+    int32_t method, diagnose, mapKind, layerCount;
+    bool operator==(const VariantKey&) const = default;
+  };
   struct Variant {
-    int method;
-    bool diagnose;
+    VariantKey key;
     gpu::ComputeProgram program;
   };
-  const gpu::ComputeProgram& program(int method, bool diagnose);
+  const gpu::ComputeProgram& program(const VariantKey& key);
 
   const gpu::Device& device_;
   glm::uvec3 groupCount_;
