@@ -225,7 +225,7 @@ void Commands::beginRendering(const RenderTargets& targets) {
   }
   VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
   info.renderArea.extent = extent;
-  info.layerCount = 1;
+  info.layerCount = 1;  // ignored where there is a view mask
   info.viewMask = targets.viewMask;
   info.colorAttachmentCount = static_cast<uint32_t>(colors.size());
   info.pColorAttachments = colors.data();

@@ -33,6 +33,9 @@ struct RenderTargets {
   const Image* depth = nullptr;
   std::optional<float> clearDepth;  // absent: keep what is there
   std::optional<uint32_t> layer;    // draw to this layer only; absent: the whole view (layer 0, or multiview)
+  // Wrong on lavapipe 22.3.6, whose rasterizer learns of a new view only now and then: triangles that the
+  // view volume clips all land in layer 0, and views from the third on are lost. One pass a layer is right on
+  // every device, and faster on lavapipe.
   uint32_t viewMask = 0;
 };
 

@@ -18,7 +18,8 @@ struct DeviceOptions {
   bool validation = false;  // also synchronization validation; or GNOMON_VALIDATION=1 in the environment
   // Also receives every message, those about objects that outlive the device too; must outlive the device.
   std::vector<std::string>* messageSink = nullptr;
-  // Hides from the CPU what a discrete GPU would hide, so that lavapipe takes the staging path too: for tests.
+  // Hides from the CPU what a discrete GPU would hide, so that lavapipe takes the staging path too: for
+  // tests.
   bool hideDeviceMemory = false;
 };
 

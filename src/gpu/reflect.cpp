@@ -80,8 +80,8 @@ ProgramInterface reflect(const std::vector<uint32_t>& spirv, VkShaderStageFlagBi
   check(context, spvc_context_parse_spirv(context, spirv.data(), spirv.size(), &ir));
   check(context, spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir,
                                               SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &compiler));
-  // What main reaches, and not what an included file declares: the layout then holds nothing that a call would leave
-  // unwritten.
+  // What main reaches, and not what an included file declares: the layout then holds nothing that a call
+  // would leave unwritten.
   spvc_set active = nullptr;
   check(context, spvc_compiler_get_active_interface_variables(compiler, &active));
   check(context, spvc_compiler_create_shader_resources_for_active_variables(compiler, &resources, active));

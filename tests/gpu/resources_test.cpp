@@ -158,6 +158,7 @@ TEST_F(ResourcesTest, MemoryThatRunsOutIsReportedByNameAndTheNextSmallerOneFits)
   EXPECT_TRUE(message.starts_with("'index list' needs 1024.0 MiB, which")) << message;
   EXPECT_EQ(Buffer(device(), {.name = "small", .size = 1u << 20}).size(), 1u << 20);
   ASSERT_EQ(::setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_EQ(device().takeValidationMessages(), std::vector<std::string>{"VK_ERROR_OUT_OF_DEVICE_MEMORY"});
 }
 #endif
 
