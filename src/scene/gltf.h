@@ -1,6 +1,6 @@
 #pragma once
-// glTF 2.0 in and out (.gltf and .glb) through tinygltf: triangles, node transforms, instances by shared meshes,
-// doubleSided, alpha masks, base colours, KHR_lights_punctual, perspective cameras.
+// glTF 2.0 in and out (.gltf and .glb) through tinygltf: triangles, node transforms, instances by shared
+// meshes, doubleSided, alpha masks, base colours, KHR_lights_punctual, perspective cameras.
 
 #include "scene/scene.h"
 
@@ -8,15 +8,22 @@
 
 namespace gnomon {
 
-// Throws WorldError with one line for anything malformed: never crashes, hangs or asks for memory that the file
-// does not back.
+// Positions and cameras are taken in their rest pose: animations are not played. Where they would change a
+// shape, skins, morph weights, sparse accessors, GPU instancing and compressed meshes are refused by name.
+// alphaMode BLEND is read as MASK at cutoff 0.5. KHR_texture_transform is applied to the uvs; light ranges
+// are ignored; orthographic cameras, lines and points are passed over. Only textures of base colours are
+// read.
+//
+// Throws WorldError with one line for anything malformed: never crashes, hangs or asks for memory that the
+// file does not back.
 Scene loadGltf(const std::filesystem::path& path);
 
-// The same from bytes in memory, .glb or .gltf text with embedded buffers; `name` stands for the path in messages.
-// This is what the fuzzer drives.
+// The same from bytes in memory, .glb or .gltf text with embedded buffers; `name` stands for the path in
+// messages. This is what the fuzzer drives.
 Scene loadGltfFromMemory(const unsigned char* bytes, size_t size, const std::string& name);
 
-// Writes .glb, whole or not at all. Loading it again gives an equal scene: the same floats, lights and cameras.
+// Writes .glb, whole or not at all. Loading it again gives an equal scene: the same floats, lights and
+// cameras, as long as a mesh of one instance is baked (see scene.h) and every texture belongs to a material.
 void saveGlb(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace gnomon

@@ -4,7 +4,9 @@
 #include "base/file.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_material.h"
+#include "scene/gltf_nodes.h"
 #include "scene/gltf_primitive.h"
+#include "scene/gltf_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +14,6 @@
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
-#include <glm/gtc/quaternion.hpp>
 
 namespace gnomon {
 
@@ -20,102 +21,8 @@ namespace {
 
 constexpr const char* kRemedy = "export the file again, or check it with the Khronos glTF Validator";
 
-constexpr double kFarthest = 1e7;  // metres; beyond, floats are a metre apart
 constexpr uint64_t kMaxInstances = 1'000'000;
 constexpr uint64_t kMaxTriangles = uint64_t{1} << 31;  // of all instances
-
-struct PlacedNode {
-  int node = 0;
-  glm::dmat4 worldFromNode{1.0};
-};
-
-glm::dmat4 localMatrix(const GltfDocument& document, int index) {
-  const tinygltf::Node& node = document.model().nodes[index];
-  glm::dmat4 matrix(1.0);
-  if (node.matrix.size() == 16) {
-    for (int c = 0; c < 4; ++c)
-      for (int r = 0; r < 4; ++r) matrix[c][r] = node.matrix[4 * c + r];
-    if (matrix[0][3] != 0.0 || matrix[1][3] != 0.0 || matrix[2][3] != 0.0 || matrix[3][3] != 1.0)
-      document.refuse(fmt::format("node {} has a matrix that is not affine", index), kRemedy);
-    return matrix;
-  }
-  if (node.rotation.size() == 4) {
-    const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    const double size = glm::length(rotation);
-    if (!(size > 1e-6 && size < 1e6))
-      document.refuse(fmt::format("node {} has a rotation of length {}", index, size), kRemedy);
-    matrix = glm::mat4_cast(rotation / size);
-  }
-  for (int c = 0; c < 3 && node.scale.size() == 3; ++c) matrix[c] *= node.scale[c];
-  for (int r = 0; r < 3 && node.translation.size() == 3; ++r) matrix[3][r] = node.translation[r];
-  return matrix;
-}
-
-bool isFinite(const glm::dmat4& matrix) {
-  for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 4; ++r)
-      if (!std::isfinite(matrix[c][r])) return false;
-  return true;
-}
-
-// The roots of the scene that the file shows. Every node has one parent at most, and none is its own
-// ancestor.
-std::vector<int> sceneRoots(const GltfDocument& document) {
-  const tinygltf::Model& model = document.model();
-  std::vector<int> parent(model.nodes.size(), -1);
-  for (size_t i = 0; i < model.nodes.size(); ++i) {
-    for (int child : model.nodes[i].children) {
-      if (parent[child] >= 0)
-        document.refuse(
-            fmt::format("node {} is a child of both node {} and node {}", child, parent[child], i), kRemedy);
-      parent[child] = static_cast<int>(i);
-    }
-  }
-  // Whatever cannot be reached from a node without parent goes round in a circle.
-  std::vector<int> open, roots;
-  for (size_t i = 0; i < parent.size(); ++i)
-    if (parent[i] < 0) roots.push_back(static_cast<int>(i));
-  open = roots;
-  std::vector<bool> reached(model.nodes.size(), false);
-  while (!open.empty()) {
-    const int node = open.back();
-    open.pop_back();
-    reached[node] = true;
-    open.insert(open.end(), model.nodes[node].children.begin(), model.nodes[node].children.end());
-  }
-  const auto circle = std::find(reached.begin(), reached.end(), false);
-  if (circle != reached.end())
-    document.refuse(fmt::format("node {} is its own ancestor", circle - reached.begin()), kRemedy);
-  if (model.scenes.empty()) return roots;
-  roots = model.scenes[std::max(model.defaultScene, 0)].nodes;
-  std::vector<bool> listed(model.nodes.size(), false);
-  for (int root : roots) {
-    if (parent[root] >= 0)
-      document.refuse(
-          fmt::format("node {} is a root of the scene and a child of node {}", root, parent[root]), kRemedy);
-    if (listed[root]) document.refuse(fmt::format("node {} is listed twice in the scene", root), kRemedy);
-    listed[root] = true;
-  }
-  return roots;
-}
-
-// All nodes of the scene with their transforms, parents before children, in the file's order.
-std::vector<PlacedNode> placeNodes(const GltfDocument& document) {
-  std::vector<PlacedNode> placed, open;
-  const std::vector<int> roots = sceneRoots(document);
-  for (auto it = roots.rbegin(); it != roots.rend(); ++it) open.push_back({*it, localMatrix(document, *it)});
-  while (!open.empty()) {
-    const PlacedNode current = open.back();
-    open.pop_back();
-    if (!isFinite(current.worldFromNode))
-      document.refuse(fmt::format("node {} is placed at infinity", current.node), kRemedy);
-    placed.push_back(current);
-    const std::vector<int>& children = document.model().nodes[current.node].children;
-    for (auto it = children.rbegin(); it != children.rend(); ++it)
-      open.push_back({*it, current.worldFromNode * localMatrix(document, *it)});
-  }
-  return placed;
-}
 
 bool isZero(double value) {
   return value == 0.0;
@@ -162,13 +69,6 @@ void bake(Mesh& mesh, const glm::dmat4& worldFromMesh) {
   if (sign < 0.0)
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
       std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
-}
-
-void checkNear(const GltfDocument& document, const glm::dvec3& point, int node) {
-  for (int c = 0; c < 3; ++c)
-    if (!(std::abs(point[c]) <= kFarthest))
-      document.refuse(fmt::format("node {} reaches beyond {} m from the origin", node, kFarthest),
-                      "scale or move the scene: glTF's unit is the metre");
 }
 
 // Turns the nodes' meshes into the scene's meshes and instances. A mesh that one node uses is baked; those
@@ -312,112 +212,6 @@ class GeometryLoader {
   std::vector<std::vector<Part>> parts_;  // of each glTF mesh
   int defaultMaterial_ = -1;
 };
-
-// A node's -z in the world, or +y and so on by axis; unit vectors stay as they are to the last bit.
-glm::vec3 unitColumn(const GltfDocument& document, const PlacedNode& placed, int column, double sign) {
-  const glm::dvec3 axis = sign * glm::dvec3(placed.worldFromNode[column]);
-  const double size = glm::length(axis);
-  if (!(size > 1e-12) || !std::isfinite(size))
-    document.refuse(fmt::format("node {} has no direction: its scale is zero", placed.node), kRemedy);
-  return glm::vec3(std::abs(size - 1.0) < 1e-6 ? axis : axis / size);
-}
-
-float finiteFloat(const GltfDocument& document, double value, const std::string& what) {
-  if (!(value >= 0.0 && value <= 1e30))
-    document.refuse(fmt::format("{} is {}", what, value), "use a number from 0 up");
-  return static_cast<float>(value);
-}
-
-Light lightOf(const GltfDocument& document, const PlacedNode& placed, int index) {
-  const tinygltf::Model& model = document.model();
-  if (index < 0 || index >= static_cast<int>(model.lights.size()))
-    document.refuse(
-        fmt::format("node {}: light {} is not among the file's {}", placed.node, index, model.lights.size()),
-        kRemedy);
-  const tinygltf::Light& source = model.lights[index];
-  const std::string& nodeName = model.nodes[placed.node].name;
-  Light light;
-  light.name = !nodeName.empty()      ? nodeName
-               : !source.name.empty() ? source.name
-                                      : fmt::format("light {}", index);
-  if (source.type != "point" && source.type != "spot" && source.type != "directional")
-    document.refuse(fmt::format("light {} has the unknown type '{}'", index, oneLine(source.type)),
-                    "use point, spot or directional");
-  light.type = source.type == "point"  ? LightType::Point
-               : source.type == "spot" ? LightType::Spot
-                                       : LightType::Directional;
-  light.intensity = finiteFloat(document, source.intensity, fmt::format("light {}: intensity", index));
-  for (int c = 0; c < 3 && source.color.size() == 3; ++c)
-    light.color[c] = finiteFloat(document, source.color[c], fmt::format("light {}: color", index));
-  if (light.type != LightType::Directional) {
-    const glm::dvec3 position(placed.worldFromNode[3]);
-    checkNear(document, position, placed.node);
-    light.positionW = glm::vec3(position);
-  }
-  if (light.type != LightType::Point) light.directionW = unitColumn(document, placed, 2, -1.0);
-  if (light.type == LightType::Spot) {
-    light.innerConeRad =
-        finiteFloat(document, source.spot.innerConeAngle, fmt::format("light {}: innerConeAngle", index));
-    light.outerConeRad =
-        finiteFloat(document, source.spot.outerConeAngle, fmt::format("light {}: outerConeAngle", index));
-    // A whisker above pi/2, for exporters that round up.
-    if (light.outerConeRad <= 0.0f || light.outerConeRad > 1.5708f || light.innerConeRad > light.outerConeRad)
-      document.refuse(
-          fmt::format("light {} has cone angles {} and {}", index, light.innerConeRad, light.outerConeRad),
-          "use 0 <= inner < outer <= pi/2");
-  }
-  return light;
-}
-
-// Rigid: scale and shear of the node are taken off. A matrix that is rigid already stays as it is.
-glm::mat4 rigidMatrix(const GltfDocument& document, const PlacedNode& placed) {
-  const glm::dmat3 linear(placed.worldFromNode);
-  const glm::dmat3 excess = glm::transpose(linear) * linear - glm::dmat3(1.0);
-  double worst = 0.0;
-  for (int c = 0; c < 3; ++c) worst = std::max(worst, glm::length(excess[c]));
-  if (worst < 1e-5 && glm::determinant(linear) > 0.0) return glm::mat4(placed.worldFromNode);
-  const glm::dvec3 back(unitColumn(document, placed, 2, 1.0)), up(unitColumn(document, placed, 1, 1.0));
-  const glm::dvec3 right = glm::cross(up, back);
-  if (!(glm::length(right) > 1e-6))
-    document.refuse(fmt::format("node {} is a camera without an upright", placed.node), kRemedy);
-  const glm::dvec3 x = glm::normalize(right), z = glm::normalize(back);
-  return glm::mat4(glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0),
-                              placed.worldFromNode[3]));
-}
-
-// Nothing for an orthographic camera: Gnomon's are perspective.
-std::optional<Camera> cameraOf(const GltfDocument& document, const PlacedNode& placed) {
-  const tinygltf::Node& node = document.model().nodes[placed.node];
-  const tinygltf::Camera& source = document.model().cameras[node.camera];
-  if (source.type != "perspective") return std::nullopt;
-  Camera camera;
-  camera.name = !node.name.empty()     ? node.name
-                : !source.name.empty() ? source.name
-                                       : fmt::format("camera {}", node.camera);
-  const double yFov = source.perspective.yfov, zNear = source.perspective.znear;
-  if (!(yFov > 1e-4 && yFov < 3.1415))
-    document.refuse(fmt::format("camera {} has yfov {}", node.camera, yFov), "use 0 < yfov < pi");
-  if (!(zNear > 1e-12 && zNear < kFarthest))
-    document.refuse(fmt::format("camera {} has znear {}", node.camera, zNear),
-                    "use a positive distance in metres");
-  checkNear(document, glm::dvec3(placed.worldFromNode[3]), placed.node);
-  camera.worldFromEye = rigidMatrix(document, placed);
-  camera.yFovRad = static_cast<float>(yFov);
-  camera.zNear = static_cast<float>(zNear);
-  return camera;
-}
-
-void loadLightsAndCameras(const GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
-  for (const PlacedNode& placed : nodes) {
-    const tinygltf::Node& node = document.model().nodes[placed.node];
-    const auto light = node.extensions.find("KHR_lights_punctual");
-    if (light != node.extensions.end())
-      scene.lights.push_back(lightOf(document, placed, light->second.Get("light").GetNumberAsInt()));
-    if (node.camera < 0) continue;
-    if (std::optional<Camera> camera = cameraOf(document, placed))
-      scene.cameras.push_back(std::move(*camera));
-  }
-}
 
 Scene sceneOf(GltfDocument& document) {
   Scene scene;

@@ -80,13 +80,15 @@ void addMeshes(tinygltf::Model& model, const Scene& scene) {
   }
 }
 
-// RGBA8 as PNG, which is lossless. OpenImageIO writes files, so it goes through one.
-std::string encodedPng(const Scene& scene, const glsl::TextureInfo& info) {
+// RGBA8 as PNG, which is lossless. OpenImageIO writes files, so it goes through one beside the scene's.
+std::string encodedPng(const Scene& scene, const glsl::TextureInfo& info,
+                       const std::filesystem::path& scenePath) {
   Image8 image(info.width, info.height, 4);
   for (size_t i = 0; i < image.values.size(); ++i)
     image.values[i] = static_cast<uint8_t>(scene.texels[info.firstTexel + i / 4] >> (8 * (i % 4)));
-  const std::filesystem::path aside = std::filesystem::temp_directory_path() /
-                                      fmt::format("gnomon_texture_{}_{}.png", ::getpid(), info.firstTexel);
+  const std::filesystem::path aside =
+      scenePath.parent_path() /
+      fmt::format(".{}.{}.texture{}.png", scenePath.stem().string(), ::getpid(), info.firstTexel);
   writePng(aside, image);
   std::string bytes = readFile(aside);
   std::error_code ignored;
@@ -100,12 +102,12 @@ int wrapOf(int wrap) {
 }
 
 // Textures that share texels share an image.
-void addTextures(tinygltf::Model& model, const Scene& scene) {
+void addTextures(tinygltf::Model& model, const Scene& scene, const std::filesystem::path& scenePath) {
   std::map<uint32_t, int> images;
   for (const glsl::TextureInfo& info : scene.textures) {
     const auto [it, isNew] = images.emplace(info.firstTexel, static_cast<int>(model.images.size()));
     if (isNew) {
-      const std::string png = encodedPng(scene, info);
+      const std::string png = encodedPng(scene, info, scenePath);
       tinygltf::Image image;
       image.mimeType = "image/png";
       image.bufferView = addView(model, png.data(), png.size(), 0);
@@ -204,7 +206,7 @@ void addCameras(tinygltf::Model& model, const Scene& scene) {
   }
 }
 
-tinygltf::Model modelOf(const Scene& scene) {
+tinygltf::Model modelOf(const Scene& scene, const std::filesystem::path& scenePath) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "Gnomon";
@@ -213,7 +215,7 @@ tinygltf::Model modelOf(const Scene& scene) {
   model.scenes[0].name = scene.name;
   model.defaultScene = 0;
   addMeshes(model, scene);
-  addTextures(model, scene);
+  addTextures(model, scene, scenePath);
   addMaterials(model, scene);
   for (const Instance& instance : scene.instances) {
     tinygltf::Node node;
@@ -230,7 +232,7 @@ tinygltf::Model modelOf(const Scene& scene) {
 }  // namespace
 
 void saveGlb(const Scene& scene, const std::filesystem::path& path) {
-  const tinygltf::Model model = modelOf(scene);
+  const tinygltf::Model model = modelOf(scene, path);
   if (model.buffers[0].data.size() > std::numeric_limits<uint32_t>::max() - (64u << 20))
     throw fileError(path.string(), "a .glb holds at most 4 GiB", "save a smaller scene");
   writeAtomically(path, [&](const std::filesystem::path& aside) {

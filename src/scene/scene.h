@@ -1,8 +1,9 @@
 #pragma once
-// A scene as Gnomon measures it: triangles, instances, lights and cameras, in metres, right-handed, y up (glTF).
+// A scene as Gnomon measures it: triangles, instances, lights and cameras, in metres, right-handed, y up
+// (glTF).
 //
-// World space is W. A mesh used by one instance has its transform baked into its positions (in double), so that
-// the shaders, the tracer and the labels read the very same numbers; shared meshes keep their matrices.
+// World space is W. A mesh used by one instance has its transform baked into its positions (in double), so
+// that the shaders, the tracer and the labels read the very same numbers; shared meshes keep their matrices.
 
 #include "shared/texture.glsl"
 
@@ -30,16 +31,17 @@ enum class AlphaMode { Opaque, Mask };
 
 struct Material {
   std::string name;
-  glm::vec4 baseColor{1.0f};     // linear
-  int baseColorTexture = -1;     // index into Scene::textures, or -1
+  glm::vec4 baseColor{1.0f};  // linear
+  int baseColorTexture = -1;  // index into Scene::textures, or -1
   AlphaMode alphaMode = AlphaMode::Opaque;
-  float alphaCutoff = 0.5f;      // a texel below it is a hole
+  float alphaCutoff = 0.5f;  // a texel below it is a hole
   bool doubleSided = false;
 };
 
 struct Instance {
   std::string name;
   int mesh = 0;
+  // Invertible. A negative determinant mirrors: front faces are then clockwise in mesh space.
   glm::mat4 worldFromMesh{1.0f};
 };
 
@@ -48,12 +50,12 @@ enum class LightType { Point, Spot, Directional };
 struct Light {
   std::string name;
   LightType type = LightType::Point;
-  glm::vec3 positionW{0.0f};            // metres; unused for directional lights
+  glm::vec3 positionW{0.0f};                // metres; unused for directional lights
   glm::vec3 directionW{0.0f, -1.0f, 0.0f};  // unit, the way the light travels; unused for point lights
-  glm::vec3 color{1.0f};                // linear
-  float intensity = 1.0f;               // candela (point, spot) or lux (directional)
-  float innerConeRad = 0.0f;            // half angles from the axis, spot only
-  float outerConeRad = 1.047197551f;  // 60 degrees: what a spot map gives a point light
+  glm::vec3 color{1.0f};                    // linear
+  float intensity = 1.0f;                   // candela (point, spot) or lux (directional)
+  float innerConeRad = 0.0f;                // half angles from the axis, spot only
+  float outerConeRad = 1.047197551f;        // 60 degrees: what a spot map gives a point light
 };
 
 struct Camera {
