@@ -19,12 +19,12 @@ uvec3 triangleVertices(PrimitiveId id) {
 SurfacePoint fetchSurface(CameraView camera, ivec2 pixel, PrimitiveId id) {
   uvec3 v = triangleVertices(id);
   mat4 worldFromMesh = instances[id.instancePlusOne - 1u].worldFromMesh;
-  vec3 a = vec3(worldFromMesh * vec4(positions[v.x], 1.0f));
-  vec3 b = vec3(worldFromMesh * vec4(positions[v.y], 1.0f));
-  vec3 c = vec3(worldFromMesh * vec4(positions[v.z], 1.0f));
+  vec3 a = vec3(transform(worldFromMesh, vec4(positions[v.x], 1.0f)));
+  vec3 b = vec3(transform(worldFromMesh, vec4(positions[v.y], 1.0f)));
+  vec3 c = vec3(transform(worldFromMesh, vec4(positions[v.z], 1.0f)));
   Ray ray;
   ray.origin = camera.eyeW;
-  ray.dir = normalize(pixelDirection(camera, pixel.x, pixel.y));
+  ray.dir = unitVector(pixelDirection(camera, pixel.x, pixel.y));
   return surfacePoint(ray, a, b, c);
 }
 

@@ -13,6 +13,6 @@ layout(location = 1) out flat uint instanceIndex;
 void main() {
   instanceIndex = gl_InstanceIndex;
   uv = uvs[gl_VertexIndex];
-  vec3 posW = vec3(instances[gl_InstanceIndex].worldFromMesh * vec4(positions[gl_VertexIndex], 1.0f));
-  gl_Position = mapLayers[layer].clipFromLight * vec4(lightFromWorld(lightFrame, posW), 1.0f);
+  vec3 posW = vec3(transform(instances[gl_InstanceIndex].worldFromMesh, vec4(positions[gl_VertexIndex], 1.0f)));
+  gl_Position = transform(mapLayers[layer].clipFromLight, vec4(lightFromWorld(lightFrame, posW), 1.0f));
 }

@@ -6,6 +6,12 @@
 
 GNOMON_SHARED_BEGIN
 
+// Matrix times vector and unit length by plain sums and products in a fixed order: the built-in ones differ between
+// compilers by an ulp or more, and a receiver must land on the very texel its caster was drawn to.
+GNOMON_FN vec4 transform(mat4 m, vec4 v) { return ((m[0] * v.x + m[1] * v.y) + m[2] * v.z) + m[3] * v.w; }
+
+GNOMON_FN vec3 unitVector(vec3 v) { return v * (1.0f / sqrt(v.x * v.x + v.y * v.y + v.z * v.z)); }
+
 struct Ray {
   vec3 origin;
   vec3 dir;  // unit

@@ -15,7 +15,7 @@ GNOMON_FN MapPoint planarProject(ShadowMap map, vec3 posL) {
   point.uv = vec2(0.0f, 0.0f);
   point.covered = false;
   for (int layer = 0; layer < map.layerCount && !point.covered; ++layer) {
-    vec4 clip = GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight * vec4(posL, 1.0f);
+    vec4 clip = transform(GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight, vec4(posL, 1.0f));
     if (clip.w > 0.0f) {
       vec2 uv = vec2(clip.x / clip.w * 0.5f + 0.5f, clip.y / clip.w * 0.5f + 0.5f);
       point.layer = layer;
@@ -30,33 +30,33 @@ GNOMON_FN MapPoint planarProject(ShadowMap map, vec3 posL) {
 // far end's w only moves that end along the line, so the direction is good to a few ulps.
 GNOMON_FN Ray planarTexelRay(ShadowMap map, int layer, vec2 uv) {
   vec4 clip = vec4(uv.x * 2.0f - 1.0f, uv.y * 2.0f - 1.0f, 0.0f, 1.0f);
-  vec4 nearH = GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].lightFromClip * clip;
+  vec4 nearH = transform(GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].lightFromClip, clip);
   clip.z = 1.0f;
-  vec4 farH = GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].lightFromClip * clip;
+  vec4 farH = transform(GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].lightFromClip, clip);
   vec3 nearL = vec3(nearH) * (1.0f / nearH.w);
   vec3 farL = vec3(farH) * (1.0f / farH.w);
   Ray ray;
   ray.origin = nearL;
-  ray.dir = normalize(farL - nearL);
+  ray.dir = unitVector(farL - nearL);
   return ray;
 }
 
 GNOMON_FN float planarDepth(ShadowMap map, int layer, vec3 posL) {
-  vec4 clip = GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight * vec4(posL, 1.0f);
+  vec4 clip = transform(GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight, vec4(posL, 1.0f));
   return clip.z / clip.w;
 }
 
 // (z/w)' = (z' w - z w') / w^2
 GNOMON_FN float planarDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) {
-  vec4 clip = GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight * vec4(posL, 1.0f);
-  vec4 rate = GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight * vec4(rayDir, 0.0f);
+  vec4 clip = transform(GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight, vec4(posL, 1.0f));
+  vec4 rate = transform(GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight, vec4(rayDir, 0.0f));
   return (rate.z * clip.w - clip.z * rate.w) / (clip.w * clip.w);
 }
 
 // (z + t z') / (w + t w') = depth, solved for t
 GNOMON_FN float planarDistance(ShadowMap map, int layer, Ray ray, float depth) {
-  vec4 clip = GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight * vec4(ray.origin, 1.0f);
-  vec4 rate = GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight * vec4(ray.dir, 0.0f);
+  vec4 clip = transform(GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight, vec4(ray.origin, 1.0f));
+  vec4 rate = transform(GNOMON_MEMBER_ARRAY(map, mapLayers)[layer].clipFromLight, vec4(ray.dir, 0.0f));
   return (depth * clip.w - clip.z) / (rate.z - depth * rate.w);
 }
 

@@ -43,14 +43,14 @@ const char* typeName(VkDescriptorType type) {
   }
 }
 
-const Binding* findBinding(std::initializer_list<Binding> bindings, uint32_t index) {
+const Binding* findBinding(const std::vector<Binding>& bindings, uint32_t index) {
   const auto found = std::find_if(bindings.begin(), bindings.end(),
                                   [index](const Binding& binding) { return binding.index == index; });
   return found == bindings.end() ? nullptr : &*found;
 }
 
 // Exactly the program's bindings, each with the right kind of resource; else aborts and says what is wrong.
-void checkBindings(const Program& program, std::initializer_list<Binding> given) {
+void checkBindings(const Program& program, const std::vector<Binding>& given) {
   const std::vector<ProgramInterface::Binding>& declared = program.interface().bindings;
   for (const ProgramInterface::Binding& binding : declared) {
     const Binding* found = findBinding(given, binding.index);
@@ -80,7 +80,7 @@ void checkPush(const Program& program, std::span<const std::byte> push) {
 
 // Binds the pipeline, every descriptor and the push constants.
 void recordProgram(const Device& device, VkCommandBuffer commands, const Program& program,
-                   std::span<const std::byte> push, std::initializer_list<Binding> given) {
+                   std::span<const std::byte> push, const std::vector<Binding>& given) {
   GNOMON_CHECK(program.pipeline() != VK_NULL_HANDLE);
   checkBindings(program, given);
   checkPush(program, push);
@@ -208,7 +208,7 @@ void Commands::barrier(const char* words) {
 }
 
 void Commands::dispatch(const ComputeProgram& program, glm::uvec3 groupCount, std::span<const std::byte> push,
-                        std::initializer_list<Binding> bindings) {
+                        const std::vector<Binding>& bindings) {
   GNOMON_CHECK(!inRendering_);
   recordProgram(device_, commands_, program, push, bindings);
   vkCmdDispatch(commands_, groupCount.x, groupCount.y, groupCount.z);
@@ -248,7 +248,7 @@ void Commands::beginRendering(const RenderTargets& targets) {
 }
 
 void Commands::bind(const GraphicsProgram& program, std::span<const std::byte> push,
-                    std::initializer_list<Binding> bindings) {
+                    const std::vector<Binding>& bindings) {
   GNOMON_CHECK(inRendering_);
   recordProgram(device_, commands_, program, push, bindings);
 }

@@ -66,12 +66,12 @@ class Commands {
 
   // Checks that `push` has the size the program declares and that exactly its bindings are given.
   void dispatch(const ComputeProgram& program, glm::uvec3 groupCount, std::span<const std::byte> push,
-                std::initializer_list<Binding> bindings);
+                const std::vector<Binding>& bindings);
 
   // Viewport and scissor cover the targets; culling is off until setCulling.
   void beginRendering(const RenderTargets& targets);
   void bind(const GraphicsProgram& program, std::span<const std::byte> push,
-            std::initializer_list<Binding> bindings);
+            const std::vector<Binding>& bindings);
   void setCulling(VkCullModeFlags mode, VkFrontFace front);
   void bindIndexBuffer(const Buffer& buffer);  // 32-bit indices
   void drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex, int32_t vertexOffset,

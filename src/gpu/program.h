@@ -8,7 +8,6 @@
 #include "gpu/resources.h"
 #include "gpu/shader_compiler.h"
 
-#include <initializer_list>
 #include <string>
 #include <vector>
 

@@ -14,8 +14,10 @@ namespace gnomon::gpu {
 constexpr size_t kKernelInputCount = size_t{1} << 16;
 
 // One Out per In, in order. Both must be the structs that the shader names, in scalar layout.
+// `more`: buffers that the shader's includes declare, such as a map.
 template <typename In, typename Out>
-std::vector<Out> runKernel(const Device& device, const ShaderSource& shader, const std::vector<In>& inputs) {
+std::vector<Out> runKernel(const Device& device, const ShaderSource& shader, const std::vector<In>& inputs,
+                           const std::vector<Binding>& more = {}) {
   static_assert(std::is_trivially_copyable_v<In> && std::is_trivially_copyable_v<Out>);
   constexpr uint32_t kGroupSize = 64;  // as in kernel.glsl
   const auto count = static_cast<uint32_t>(inputs.size());
@@ -25,7 +27,9 @@ std::vector<Out> runKernel(const Device& device, const ShaderSource& shader, con
   const Buffer inBuffer = createBufferWith(device, "kernel inputs", inputs);
   const Buffer outBuffer(device, {.name = "kernel outputs", .size = count * sizeof(Out)});
   Commands commands(device, "kernel");
-  commands.dispatch(program, {groupCount, 1, 1}, asPush(count), {{0, inBuffer}, {1, outBuffer}});
+  std::vector<Binding> bindings = {{0, inBuffer}, {1, outBuffer}};
+  bindings.insert(bindings.end(), more.begin(), more.end());
+  commands.dispatch(program, {groupCount, 1, 1}, asPush(count), bindings);
   commands.submitAndWait();
   return downloadAs<Out>(device, outBuffer);
 }

@@ -1,0 +1,71 @@
+// Images come back as they were written.
+#include "base/error.h"
+#include "base/file.h"
+#include "base/image.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ImageTest : public ::testing::Test {
+ protected:
+  ImageTest() {
+    std::string name = (fs::temp_directory_path() / "gnomon-image-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~ImageTest() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(ImageTest, ExrKeepsEveryFloat) {
+  ImageF image(7, 5, 3);
+  for (size_t i = 0; i < image.values.size(); ++i) image.values[i] = std::ldexp(static_cast<float>(i) - 50.3f, static_cast<int>(i % 40) - 20);
+  image.values[4] = std::numeric_limits<float>::infinity();
+  writeExr(folder_ / "a.exr", image, {"visibility", "truth", "label"});
+  const ImageF back = readImage(folder_ / "a.exr");
+  ASSERT_EQ(back.values.size(), image.values.size());
+  // Channels come back in the file's order, which is alphabetical: label, truth, visibility.
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 7; ++x)
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(back.at(x, y)[2 - c], image.at(x, y)[c]);
+}
+
+TEST_F(ImageTest, PngKeepsEveryByteAndTheSameImageGivesTheSameFile) {
+  Image8 image(16, 16, 3);
+  for (size_t i = 0; i < image.values.size(); ++i) image.values[i] = static_cast<uint8_t>(i * 37);
+  writePng(folder_ / "a.png", image);
+  writePng(folder_ / "b.png", image);
+  EXPECT_EQ(readFile(folder_ / "a.png"), readFile(folder_ / "b.png"));
+  const std::string bytes = readFile(folder_ / "a.png");
+  const Image8 back = decodeImage(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), "a.png");
+  for (int i = 0; i < 256; ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(back.values[4 * i + c], image.values[3 * i + c]);
+}
+
+TEST_F(ImageTest, GarbageIsRefusedByName) {
+  const std::string garbage = "\x89PNG but no more";
+  try {
+    decodeImage(reinterpret_cast<const uint8_t*>(garbage.data()), garbage.size(), "texture 3");
+    FAIL();
+  } catch (const WorldError& error) {
+    EXPECT_NE(std::string(error.what()).find("texture 3"), std::string::npos);
+  }
+}
+
+TEST(Srgb, RoundTrips) {
+  for (int i = 0; i <= 255; ++i) {
+    const float value = static_cast<float>(i) / 255.0f;
+    EXPECT_NEAR(srgbFromLinear(linearFromSrgb(value)), value, 2e-6f);
+  }
+  EXPECT_NEAR(srgbFromLinear(0.5f), 0.735357f, 1e-5f);  // IEC 61966-2-1
+}
+
+}  // namespace
+}  // namespace gnomon

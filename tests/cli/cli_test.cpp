@@ -1,0 +1,175 @@
+// The program: exit codes, one clear line for every mistake, and files that are whole or absent.
+#include "base/file.h"
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Result {
+  int exitCode = -1;
+  std::string out;
+  std::string err;
+};
+
+class CliTest : public ::testing::Test {
+ protected:
+  CliTest() {
+    std::string name = (fs::temp_directory_path() / "gnomon-cli-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~CliTest() override { fs::remove_all(folder_); }
+
+  // `@` in the arguments stands for this test's folder.
+  Result run(std::string arguments) const {
+    for (size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@'))
+      arguments.replace(at, 1, folder_.string());
+    const std::string command = std::string(GNOMON_PROGRAM) + " " + arguments + " >" + (folder_ / "stdout").string() + " 2>" +
+                                (folder_ / "stderr").string() + " </dev/null";
+    const int status = std::system(command.c_str());
+    Result result{.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+                  .out = readFile(folder_ / "stdout"),
+                  .err = readFile(folder_ / "stderr")};
+    fs::remove(folder_ / "stdout");
+    fs::remove(folder_ / "stderr");
+    return result;
+  }
+
+  // Exit code, and a single line on stderr that holds `what`.
+  void expectMistake(const std::string& arguments, int exitCode, const std::string& what) const {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.exitCode, exitCode) << arguments << "\n" << result.err;
+    EXPECT_NE(result.err.find(what), std::string::npos) << arguments << "\n" << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << arguments << "\n" << result.err;
+  }
+
+  size_t fileCount() const {
+    return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(CliTest, CompareWritesATableResultsAndPicturesAndNoMessageOfValidation) {
+  const Result result = run("compare contact --maps spot,directional --size 96 --map-size 64 --repeats 1 -o @/out --json @/r.json");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_NE(result.out.find("bias error"), std::string::npos);
+  const auto json = nlohmann::json::parse(readFile(folder_ / "r.json"));
+  EXPECT_EQ(readFile(folder_ / "r.json"), readFile(folder_ / "out" / "results.json"));
+  EXPECT_EQ(json.at("rows").size(), 8u);
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "spot" / "adaptive.labels.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "directional" / "depth.exr"));
+}
+
+TEST_F(CliTest, EveryBiasKnobIsAFlag) {
+  const Result result =
+      run("compare corner --biases constant,adaptive --constant-offset 0.125 --adaptive-k 0.002 --epsilon-at stored --size 32 "
+          "--map-size 32 --repeats 1 --cull none --json @/r.json");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto rows = nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows");
+  EXPECT_EQ(rows[0].at("params").at("offset"), 0.125);
+  EXPECT_EQ(rows[1].at("params").at("k"), 0.002);
+  EXPECT_EQ(rows[1].at("params").at("epsilon_at"), "stored");
+  EXPECT_EQ(rows[1].at("params").at("cull"), "none");
+}
+
+TEST_F(CliTest, MapTexelsPicksTheSide) {
+  const Result result = run("compare corner --biases none --map-texels 10000 --size 32 --repeats 1 --json @/r.json");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows")[0].at("map_size"), 100);
+}
+
+TEST_F(CliTest, AThresholdThatIsCrossedExitsWith3) {
+  const std::string base = "compare slope --biases none,adaptive --size 64 --map-size 64 --repeats 1 ";
+  const Result crossed = run(base + "--fail-if 'none:acne>1%'");
+  EXPECT_EQ(crossed.exitCode, 3);
+  EXPECT_NE(crossed.err.find("spot none: acne is"), std::string::npos) << crossed.err;
+  EXPECT_EQ(run(base + "--fail-if 'adaptive:acne>0' --fail-if 'adaptive:leak>0'").exitCode, 0);
+}
+
+TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
+  expectMistake("", 2, "subcommand");
+  expectMistake("compare", 2, "SCENE");
+  expectMistake("compare contact --maps disc", 2, "--maps disc: no such map");
+  expectMistake("compare contact --biases adaptve", 2, "adaptve: no such bias");
+  expectMistake("compare contact --size 0", 2, "--size 0");
+  expectMistake("compare contact --map-size 1", 2, "2..16384");
+  expectMistake("compare contact --map-size 64 --map-texels 4096", 2, "excludes");
+  expectMistake("compare contact --constant-offset -1", 2, "--constant-offset");
+  expectMistake("compare contact --constant-offset nan", 2, "--constant-offset");
+  expectMistake("compare contact --fail-if acne", 2, "--fail-if 'acne'");
+  expectMistake("compare contact --camera eye:1,2", 2, "--camera");
+  expectMistake("compare contact --cone 300", 2, "--cone 300");
+  expectMistake("compare contact --cull all", 2, "--cull all");
+  expectMistake("compare contact --repeats 0", 2, "--repeats");
+  expectMistake("compare contact --no-such-flag", 2, "--no-such-flag");
+  expectMistake("render contact -o @/a.jpg", 2, "write a .png or an .exr");
+  expectMistake("render contact --biases all -o @/a.png", 2, "one configuration");
+  expectMistake("scene slope", 2, "-o FILE.glb");
+  expectMistake("scene slope -o @/a.obj", 2, "write a .glb");
+  EXPECT_EQ(fileCount(), 0u);
+}
+
+TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
+  expectMistake("compare nowhere.glb", 1, "nowhere.glb");
+  expectMistake("compare contact --light moon --size 16", 1, "--light moon: the scene has no light of this name");
+  expectMistake("compare contact --camera x --size 16", 1, "--camera x: the scene has no camera of this name");
+  expectMistake("compare contact --device Voodoo2 --size 16", 1, "Voodoo2");
+  expectMistake("compare contact --camera eye:0,1000,0,target:0,2000,0 --size 16", 1, "the camera sees no surface");
+  expectMistake("render contact --size 16 --map-size 16 -o /proc/nowhere/a.png", 1, "/proc/nowhere");
+  expectMistake("scene nothing -o @/a.glb", 1, "nothing");
+  expectMistake("compare contact --shader-dir @/none --size 16", 1, "none");
+  EXPECT_EQ(fileCount(), 0u);
+}
+
+TEST_F(CliTest, RenderDrawsEveryKindOfPicture) {
+  for (const char* show : {"beauty", "visibility", "truth", "labels", "depth"}) {
+    const std::string name = std::string("@/") + show;
+    EXPECT_EQ(run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".png").exitCode, 0) << show;
+    EXPECT_EQ(run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".exr").exitCode, 0) << show;
+  }
+  EXPECT_EQ(fileCount(), 10u);
+}
+
+// A generated scene, written and loaded again, is the same scene: the same counts for every bias.
+TEST_F(CliTest, AnExportedSceneComparesEqual) {
+  for (const std::string scene : {"contact", "sheets", "crowd:20000"}) {
+    ASSERT_EQ(run("scene " + scene + " -o @/scene.glb").exitCode, 0);
+    const std::string flags = " --size 96 --map-size 64 --repeats 1 --json @/";
+    ASSERT_EQ(run("compare " + scene + flags + "a.json").exitCode, 0);
+    ASSERT_EQ(run("compare @/scene.glb" + flags + "b.json").exitCode, 0);
+    auto a = nlohmann::json::parse(readFile(folder_ / "a.json"));
+    auto b = nlohmann::json::parse(readFile(folder_ / "b.json"));
+    ASSERT_EQ(a.at("rows").size(), b.at("rows").size());
+    for (size_t i = 0; i < a.at("rows").size(); ++i)
+      for (const char* key : {"scored", "agree", "acne", "leak", "edge_shadow", "edge_light", "uncovered", "params"})
+        EXPECT_EQ(a["rows"][i].at(key), b["rows"][i].at(key)) << scene << " " << key;
+    EXPECT_EQ(a.at("scene").at("sceneScale"), b.at("scene").at("sceneScale"));
+  }
+}
+
+TEST_F(CliTest, SceneListsAndInfoTells) {
+  const Result scenes = run("scene");
+  for (const char* name : {"lshape", "double-torus", "factory", "atrium", "corner", "sheets", "contact", "slope", "crowd"})
+    EXPECT_NE(scenes.out.find(name), std::string::npos) << name;
+  const Result info = run("info lshape");
+  EXPECT_NE(info.out.find("solid"), std::string::npos);
+  EXPECT_NE(info.out.find("sheet"), std::string::npos);
+  EXPECT_NE(run("info").out.find("Vulkan 1."), std::string::npos);
+  EXPECT_EQ(run("--version").exitCode, 0);
+  const Result help = run("compare --help");
+  EXPECT_EQ(help.exitCode, 0);
+  EXPECT_NE(help.out.find("--adaptive-k"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gnomon

@@ -1,0 +1,147 @@
+// The main job end to end: rows that add up, results.json as docs/results.md has it, and the same bytes twice.
+#include "base/file.h"
+#include "lab/compare.h"
+#include "lab/pictures.h"
+#include "lab/results.h"
+#include "lab/table.h"
+#include "tests/gpu_fixture.h"
+
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+namespace gnomon {
+namespace {
+
+using gpu::TemporaryFolder;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+struct Outcome {
+  Json json;
+  std::map<std::string, std::string> files;  // name below the folder -> bytes
+  Comparison comparison;
+  std::string table;
+};
+
+Outcome run(const std::string& scene, const std::string& maps) {
+  const TemporaryFolder folder;
+  const SetupOptions setup{.scene = scene, .size = "160x120"};
+  const Session session({.validation = true}, setup);
+  CompareOptions options;
+  options.maps = parseMaps(maps);
+  options.biases = parseBiases("all");
+  options.mapSide = 128;
+  options.repeats = 1;
+  options.outDir = folder.path();
+  Outcome outcome;
+  outcome.comparison = compare(session, options);
+  outcome.json = Json::parse(resultsJson(session, setup, outcome.comparison, "gnomon compare"));
+  outcome.table = comparisonTable(outcome.comparison);
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+    if (entry.is_regular_file())
+      outcome.files[fs::relative(entry.path(), folder.path()).string()] = readFile(entry.path());
+  EXPECT_TRUE(session.device().validationMessages().empty());
+  return outcome;
+}
+
+// Removes what is allowed to differ between two runs.
+void dropTimes(Json& json) {
+  if (json.is_object()) {
+    for (auto it = json.begin(); it != json.end();)
+      it = it.key().ends_with("_ms") ? json.erase(it) : std::next(it);
+  }
+  for (Json& child : json) dropTimes(child);
+}
+
+TEST(Compare, TheSameCommandGivesTheSameBytes) {
+  Outcome a = run("contact", "spot,directional");
+  Outcome b = run("contact", "spot,directional");
+  dropTimes(a.json);
+  dropTimes(b.json);
+  EXPECT_EQ(a.json.dump(), b.json.dump());
+  EXPECT_EQ(a.files.size(), 2u * (4 + 4 * 4));
+  EXPECT_EQ(a.files, b.files);
+}
+
+TEST(Compare, ResultsFollowTheSchema) {
+  const Outcome outcome = run("lshape", "spot,directional");
+  const Json& json = outcome.json;
+  EXPECT_EQ(json.at("schema"), kResultsVersion);
+  for (const char* key : {"version", "device", "driver", "command"}) EXPECT_TRUE(json.at("gnomon").at(key).is_string());
+  EXPECT_GT(json.at("scene").at("triangles"), 0);
+  EXPECT_GT(json.at("scene").at("sceneScale"), 0.0);
+  EXPECT_EQ(json.at("camera").at("width"), 160);
+  EXPECT_EQ(json.at("truths").size(), 2u);
+  EXPECT_EQ(json.at("truth"), json.at("truths")[0]);
+  for (const Json& truth : json.at("truths")) {
+    for (const char* key : {"scored", "lit", "facing_away", "outside_cone", "margin_flips_half", "margin_flips_double"})
+      EXPECT_TRUE(truth.at(key).is_number_unsigned()) << key;
+    EXPECT_TRUE(truth.at("light").at("type").is_string());
+  }
+  ASSERT_EQ(json.at("rows").size(), 2u * biasMethods().size());
+  for (const Json& row : json.at("rows")) {
+    uint64_t sum = 0;
+    for (const char* key : {"agree", "acne", "leak", "edge_shadow", "edge_light", "uncovered"}) sum += row.at(key).get<uint64_t>();
+    EXPECT_EQ(sum, row.at("scored").get<uint64_t>());
+    const double error = (row.at("acne").get<double>() + row.at("leak").get<double>()) / row.at("scored").get<double>();
+    EXPECT_DOUBLE_EQ(row.at("bias_error").get<double>(), error);
+    EXPECT_EQ(row.at("map_texels"), 128 * 128);
+    EXPECT_EQ(row.at("filter"), "none");
+    EXPECT_TRUE(row.at("params").is_object());
+    EXPECT_GE(row.at("build_ms"), 0.0);
+    EXPECT_GE(row.at("shade_ms"), 0.0);
+    for (const Json& picture : row.at("pictures")) EXPECT_TRUE(outcome.files.contains(picture.get<std::string>()));
+  }
+}
+
+TEST(Compare, TheTableHasTheBestFirst) {
+  const Outcome outcome = run("slope", "spot");
+  const std::vector<Row> rows = ranked(outcome.comparison.rows);
+  for (size_t i = 1; i < rows.size(); ++i) EXPECT_LE(rows[i - 1].biasError(), rows[i].biasError());
+  EXPECT_EQ(rows.back().bias, "none");
+  EXPECT_LT(outcome.table.find("adaptive"), outcome.table.find("none"));
+}
+
+TEST(LabelPicture, PaintsEachLabelInItsOwnColor) {
+  Receivers receivers;
+  receivers.width = 8;
+  receivers.height = 1;
+  receivers.states.assign(8, PixelState::Scored);
+  receivers.samples.resize(8);
+  Truth truth;
+  truth.lit.assign(8, 1);
+  truth.lit[7] = 0;
+  LabelImage labels;
+  labels.labels = {Label::NotScored, Label::Agree,     Label::Acne,      Label::Leak,
+                   Label::EdgeShadow, Label::EdgeLight, Label::Uncovered, Label::Agree};
+  const Image8 picture = labelPicture(receivers, truth, labels, "title");
+  std::set<std::vector<uint8_t>> colors;
+  for (int x = 0; x < 8; ++x) colors.insert({picture.at(x, 0)[0], picture.at(x, 0)[1], picture.at(x, 0)[2]});
+  EXPECT_EQ(colors.size(), 8u);
+}
+
+TEST(DrawText, MarksPixelsWithinItsLine) {
+  Image8 image(200, 20, 3);
+  drawText(image, 2, 3, 1, "acne 12", {255, 255, 255});
+  size_t marked = 0;
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      if (image.at(x, y)[0] == 0) continue;
+      ++marked;
+      EXPECT_LT(y, 15);
+      EXPECT_LT(x, 60);
+    }
+  }
+  EXPECT_GT(marked, 40u);
+}
+
+TEST(Median, OfOddAndEvenCounts) {
+  EXPECT_EQ(median({3, 1, 2}), 2.0);
+  EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
+  EXPECT_EQ(median({}), 0.0);
+}
+
+}  // namespace
+}  // namespace gnomon

@@ -1,0 +1,199 @@
+// shared/bias.glsl: what each method promises, and the same verdicts on both processors.
+#include "base/error.h"
+#include "map_fixture.h"
+#include "map_functions.glsl"
+#include "tests/run_kernel.h"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace gnomon {
+namespace {
+
+using namespace glsl;
+using test::facingNormal;
+using test::fittedDirectional;
+using test::fittedSpot;
+using test::MapSample;
+using test::samplesOf;
+
+// A receiver on a plane at some angle, and what the map would hold of that very plane in the receiver's texel.
+struct PlaneCase {
+  Receiver receiver;
+  Tap tap;
+  bool meets = false;  // the texel's ray meets the plane between near and far
+};
+
+PlaneCase planeCase(const ShadowMap& map, const MapSample& sample, float tanAngle, float azimuth) {
+  PlaneCase result;
+  const Ray toPoint = mapTexelRay(map, 0, sample.uv);
+  result.receiver = {sample.posL, facingNormal(toPoint.dir, tanAngle, azimuth)};
+  Tap& tap = result.tap;
+  tap.layer = 0;
+  tap.texel = mapTexel(map, mapProject(map, sample.posL).uv);
+  tap.ray = mapTexelRay(map, 0, mapTexelCenter(map, tap.texel));
+  const PlaneDepth plane = receiverPlaneDepth(map, 0, result.receiver, tap.ray);
+  result.meets = !plane.grazing;
+  tap.z1 = plane.depth;
+  return result;
+}
+
+std::vector<PlaneCase> planeCases(const ShadowMap& map, const FittedMap& fitted, size_t count) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  std::vector<PlaneCase> cases;
+  for (const MapSample& sample : samplesOf(fitted, count, 12)) {
+    const float tanAngle = std::tan(unit(random) * 1.55f);  // to 88.8 degrees
+    const PlaneCase c = planeCase(map, sample, tanAngle, unit(random) * 2.0f * std::numbers::pi_v<float>);
+    if (c.meets) cases.push_back(c);
+  }
+  return cases;
+}
+
+bool lit(int method, const ShadowMap& map, const BiasParams& params, const Receiver& receiver, const Tap& tap) {
+  bool known = false;
+  const bool result = biasLit(method, map, params, receiver, tap, known);
+  EXPECT_TRUE(known);
+  return result;
+}
+
+class Bias : public ::testing::TestWithParam<bool> {
+ protected:
+  FittedMap fitted_ = GetParam() ? fittedSpot() : fittedDirectional();
+  BiasParams params_ = defaultBiasParams(fitted_.map.sceneScale);
+};
+
+TEST_P(Bias, AdaptiveNeverShadowsAPlaneByItself) {
+  const auto cases = planeCases(fitted_.map, fitted_, 1 << 16);
+  ASSERT_GT(cases.size(), size_t{40000});
+  for (const int epsilonAt : {kEpsilonAtFragment, kEpsilonAtOccluder, kEpsilonAtStored}) {
+    params_.epsilonAt = epsilonAt;
+    size_t acne = 0;
+    for (const PlaneCase& c : cases) acne += lit(kBiasAdaptive, fitted_.map, params_, c.receiver, c.tap) ? 0 : 1;
+    EXPECT_EQ(acne, 0u) << "epsilon at " << epsilonAtName(epsilonAt);
+  }
+}
+
+TEST_P(Bias, NoneShadowsAboutHalfOfATiltedPlane) {
+  size_t acne = 0;
+  const auto cases = planeCases(fitted_.map, fitted_, 1 << 14);
+  for (const PlaneCase& c : cases) acne += lit(kBiasNone, fitted_.map, params_, c.receiver, c.tap) ? 0 : 1;
+  EXPECT_NEAR(static_cast<double>(acne) / static_cast<double>(cases.size()), 0.5, 0.03);
+}
+
+// Factor 2 covers a whole texel in the steeper of the two directions; a corner of the texel may lie 1.41 of that away,
+// never more than twice half a texel's change in u plus in v.
+TEST_P(Bias, SlopeCoversATiltedPlane) {
+  size_t acne = 0;
+  const auto cases = planeCases(fitted_.map, fitted_, 1 << 14);
+  for (const PlaneCase& c : cases) acne += lit(kBiasSlope, fitted_.map, params_, c.receiver, c.tap) ? 0 : 1;
+  EXPECT_LE(static_cast<double>(acne) / static_cast<double>(cases.size()), 0.01);
+}
+
+TEST_P(Bias, ConstantIsADistanceInMetres) {
+  for (const MapSample& sample : samplesOf(fitted_, 4096, 13)) {
+    PlaneCase c = planeCase(fitted_.map, sample, 0.0f, 0.0f);
+    const float distance = glm::dot(c.receiver.posL - c.tap.ray.origin, c.tap.ray.dir);
+    for (const float gap : {0.05f, 0.2f}) {
+      if (distance <= 2.0f * gap) continue;
+      c.tap.z1 = mapDepth(fitted_.map, 0, c.receiver.posL - c.tap.ray.dir * gap);
+      params_.constantOffset = 0.98f * gap;
+      EXPECT_FALSE(lit(kBiasConstant, fitted_.map, params_, c.receiver, c.tap));
+      params_.constantOffset = 1.02f * gap;
+      EXPECT_TRUE(lit(kBiasConstant, fitted_.map, params_, c.receiver, c.tap));
+    }
+  }
+}
+
+TEST_P(Bias, AnOccluderTenEpsilonsAwayCastsAShadowWithAdaptive) {
+  size_t tried = 0;
+  for (const PlaneCase& c : planeCases(fitted_.map, fitted_, 4096)) {
+    Tap tap = c.tap;
+    const float t = rayPlaneDistance(tap.ray, c.receiver.posL, c.receiver.normalL);
+    const float gap = 10.0f * params_.adaptiveK * fitted_.map.sceneScale;
+    if (t < 2.0f * gap) continue;
+    tap.z1 = mapDepth(fitted_.map, 0, tap.ray.origin + tap.ray.dir * (t - gap));
+    EXPECT_FALSE(lit(kBiasAdaptive, fitted_.map, params_, c.receiver, tap));
+    ++tried;
+  }
+  EXPECT_GT(tried, size_t{2000});
+}
+
+TEST_P(Bias, AnEmptyTexelLightsWithEveryMethod) {
+  for (const MapSample& sample : samplesOf(fitted_, 64, 14)) {
+    PlaneCase c = planeCase(fitted_.map, sample, 3.0f, 1.0f);
+    c.tap.z1 = 1.0f;
+    for (const BiasMethod& method : biasMethods())
+      EXPECT_TRUE(lit(method.id, fitted_.map, params_, c.receiver, c.tap)) << method.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Bias, ::testing::Bool(),
+                         [](const auto& tested) { return tested.param ? "Spot" : "Directional"; });
+
+TEST(BiasList, HasEveryIdOnceAndDefaultsWithinTheirRanges) {
+  std::set<int> ids;
+  for (const BiasMethod& method : biasMethods()) {
+    EXPECT_TRUE(ids.insert(method.id).second) << method.name;
+    for (const BiasKnob& knob : method.knobs) {
+      EXPECT_LE(knob.lower, knob.defaultValue) << method.name << " " << knob.name;
+      EXPECT_GE(knob.upper, knob.defaultValue) << method.name << " " << knob.name;
+      EXPECT_NE(*knob.sentence, '\0');
+    }
+  }
+}
+
+TEST(BiasList, RefusesAnUnknownNameAndListsTheOthers) {
+  try {
+    parseBiases("adaptive,adaptve");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("adaptve: no such bias"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("slope"), std::string::npos);
+  }
+}
+
+TEST(BiasList, UnknownMethodIsTold) {
+  bool known = true;
+  const FittedMap fitted = fittedSpot();
+  Tap tap{};
+  tap.z1 = 0.5f;
+  biasLit(999, fitted.map, {}, {}, tap, known);
+  EXPECT_FALSE(known);
+}
+
+class BiasOnTheGpu : public gpu::GpuTest {};
+
+TEST_F(BiasOnTheGpu, VerdictsEqualTheCpuForEveryMethod) {
+  const FittedMap fitted = fittedSpot();
+  std::mt19937 random(15);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  std::vector<BiasQuery> queries;
+  for (const MapSample& sample : samplesOf(fitted, gpu::kKernelInputCount, 16)) {
+    PlaneCase c = planeCase(fitted.map, sample, std::tan(unit(random) * 1.57f), unit(random) * 6.0f);
+    BiasQuery query{.method = static_cast<int>(queries.size() % 5),  // 4 is no method
+                    .params = defaultBiasParams(fitted.map.sceneScale),
+                    .receiver = c.receiver,
+                    .z1 = c.tap.z1};
+    query.params.epsilonAt = static_cast<int>(queries.size() % 3);
+    // Near the decision of each method, on either side.
+    query.z1 += (unit(random) - 0.5f) * 1e-3f;
+    queries.push_back(query);
+  }
+  const gpu::Buffer map = gpu::createBufferWith(
+      device(), "map", std::vector<MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}});
+  const auto answers = gpu::runKernel<BiasQuery, uint>(device(), GNOMON_TEST_SHADER("evaluate_bias.comp.glsl"),
+                                                       queries, {{kBindMap, map}});
+  size_t different = 0;
+  std::set<uint> seen;
+  for (size_t i = 0; i < queries.size(); ++i) {
+    different += answers[i] != answerBias(fitted.map, queries[i]) ? 1 : 0;
+    seen.insert(answers[i]);
+  }
+  EXPECT_EQ(seen.size(), 3u);  // shadow, light and unknown all occur
+  EXPECT_LE(different, isLavapipe() ? size_t{0} : queries.size() / 1000);
+}
+
+}  // namespace
+}  // namespace gnomon

@@ -1,0 +1,90 @@
+#include "map_fixture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::test {
+
+namespace {
+
+LightModel lightFor(const Scene& scene, const Parameterization& map) {
+  const auto wanted = std::ranges::find_if(scene.lights, [&](const Light& light) {
+    return map.takes(light.type) == Parameterization::Takes::Yes;
+  });
+  const Light light = wanted != scene.lights.end() ? *wanted : scene.lights.front();
+  const glm::dvec3 aim = glm::normalize(glm::dvec3(computeBounds(scene).center() - light.positionW));
+  return map.lightModel(light, aim);
+}
+
+FittedMap fitContact(const Parameterization& map) {
+  const Scene scene = findGeneratedScene("contact")->make();
+  std::vector<glm::dvec3> receivers;
+  const Bounds bounds = computeBounds(scene);
+  for (int i = 0; i < 8; ++i)
+    receivers.emplace_back(glm::mix(bounds.lower, bounds.upper, glm::vec3(i & 1, (i >> 1) & 1, i >> 2) * 0.6f + 0.2f));
+  const LightModel light = lightFor(scene, map);
+  return map.fit({.scene = scene, .light = light, .receiversW = receivers, .side = 256});
+}
+
+}  // namespace
+
+FittedMap fittedSpot() {
+  return fitContact(spotParameterization());
+}
+
+FittedMap fittedDirectional() {
+  return fitContact(directionalParameterization());
+}
+
+std::vector<MapSample> samplesOf(const FittedMap& fitted, size_t count, uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  std::vector<MapSample> samples(count);
+  for (MapSample& sample : samples) {
+    sample.uv = {unit(random), unit(random)};
+    const glsl::Ray ray = glsl::mapTexelRay(fitted.map, 0, sample.uv);
+    // Even in distance, so that both ends of a hyperbolic depth are met.
+    const float length = glsl::mapDistance(fitted.map, 0, ray, 1.0f);
+    const float t = (0.001f + 0.998f * unit(random)) * length;
+    sample.posL = ray.origin + ray.dir * t;
+    sample.depth = glsl::mapDepth(fitted.map, 0, sample.posL);
+  }
+  return samples;
+}
+
+glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth) {
+  const glm::vec3 hint = std::abs(rayDir.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+  const glm::vec3 u = glm::normalize(glm::cross(hint, rayDir));
+  const glm::vec3 v = glm::cross(rayDir, u);
+  return glm::normalize(-rayDir + tanAngle * (u * std::cos(azimuth) + v * std::sin(azimuth)));
+}
+
+Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,
+                int mapSide, CullMode cull) {
+  Rendered r;
+  r.scene = openScene(sceneName);
+  r.tracer = std::make_unique<Tracer>(r.scene);
+  r.buffers = createSceneBuffers(device, r.scene);
+  r.view = cameraView(r.scene.cameras.front(), pictureSide, pictureSide);
+  r.gbuffer = std::make_unique<GBuffer>(device, pictureSide, pictureSide);
+  {
+    gpu::Commands commands(device, "G-buffer");
+    r.gbuffer->record(commands, r.buffers, r.view);
+    commands.submitAndWait();
+  }
+  r.light = lightFor(r.scene, map);
+  r.receivers = computeReceivers(*r.tracer, r.view, r.light,
+                                 gpu::downloadAs<glsl::PrimitiveId>(device, r.gbuffer->primitiveIds()));
+  std::vector<glm::dvec3> scored;
+  for (size_t i = 0; i < r.receivers.states.size(); ++i)
+    if (r.receivers.states[i] == PixelState::Scored) scored.push_back(r.receivers.samples[i].positionW);
+  r.fitted = map.fit({.scene = r.scene, .light = r.light, .receiversW = scored, .side = mapSide});
+  r.image = std::make_unique<MapImage>(device, r.fitted);
+  const MapRenderer renderer(device);
+  gpu::Commands commands(device, "shadow map");
+  renderer.record(commands, r.buffers, *r.image, r.light, cull);
+  commands.submitAndWait();
+  return r;
+}
+
+}  // namespace gnomon::test

@@ -1,0 +1,46 @@
+#pragma once
+// Maps, receivers and rendered scenes that the tests of shadow/ share.
+
+#include "scene/generate.h"
+#include "shadow/parameterization.h"
+#include "shadow/planar_map.h"
+#include "shadow/visibility_pass.h"
+#include "tests/gpu_fixture.h"
+#include "truth/visibility.h"
+
+#include <random>
+#include <vector>
+
+namespace gnomon::test {
+
+// A map of each planar kind, fitted to the generated scene `contact` with side 256.
+FittedMap fittedSpot();
+FittedMap fittedDirectional();
+
+// A point of the map's volume: the ray through a random uv, at a random depth.
+struct MapSample {
+  glm::vec2 uv;
+  float depth;
+  glm::vec3 posL;
+};
+std::vector<MapSample> samplesOf(const FittedMap& fitted, size_t count, uint32_t seed);
+
+// A unit normal that faces the light at posL, at any angle to the ray up to `mostTanAngle`.
+glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth);
+
+// A scene drawn by its first camera and mapped from its first positional light (or directional, for that kind).
+struct Rendered {
+  Scene scene;
+  std::unique_ptr<Tracer> tracer;
+  SceneBuffers buffers;
+  glsl::CameraView view;
+  std::unique_ptr<GBuffer> gbuffer;
+  LightModel light;
+  Receivers receivers;
+  FittedMap fitted;
+  std::unique_ptr<MapImage> image;
+};
+Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,
+                int mapSide, CullMode cull);
+
+}  // namespace gnomon::test

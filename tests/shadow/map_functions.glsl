@@ -1,0 +1,63 @@
+// What planar_map_test.cpp and bias_test.cpp evaluate on both sides. The map itself is the buffer that shared/map.glsl
+// declares; in C++ it is the argument.
+#ifndef GNOMON_TEST_MAP_FUNCTIONS_GLSL
+#define GNOMON_TEST_MAP_FUNCTIONS_GLSL
+
+#include "shared/bias.glsl"
+
+GNOMON_SHARED_BEGIN
+
+struct MapQuery {
+  vec3 posL;
+  vec2 uv;
+  float depth;
+};
+
+struct MapAnswer {
+  vec2 uv;
+  int layer;
+  int covered;
+  vec3 origin;
+  vec3 dir;
+  float depth;
+  float slope;
+  float distance;
+};
+
+GNOMON_FN MapAnswer answerMap(ShadowMap map, MapQuery query) {
+  MapPoint point = mapProject(map, query.posL);
+  Ray ray = mapTexelRay(map, 0, query.uv);
+  MapAnswer answer;
+  answer.uv = point.uv;
+  answer.layer = point.layer;
+  answer.covered = point.covered ? 1 : 0;
+  answer.origin = ray.origin;
+  answer.dir = ray.dir;
+  answer.depth = mapDepth(map, 0, query.posL);
+  answer.slope = mapDepthSlope(map, 0, query.posL, ray.dir);
+  answer.distance = mapDistance(map, 0, ray, query.depth);
+  return answer;
+}
+
+struct BiasQuery {
+  int method;
+  BiasParams params;
+  Receiver receiver;
+  float z1;
+};
+
+// 0 shadow, 1 lit, 2 no such method.
+GNOMON_FN uint answerBias(ShadowMap map, BiasQuery query) {
+  MapPoint point = mapProject(map, query.receiver.posL);
+  Tap tap;
+  tap.layer = point.layer;
+  tap.texel = mapTexel(map, point.uv);
+  tap.ray = mapTexelRay(map, tap.layer, mapTexelCenter(map, tap.texel));
+  tap.z1 = query.z1;
+  bool known;
+  bool lit = biasLit(query.method, map, query.params, query.receiver, tap, known);
+  return known ? (lit ? 1u : 0u) : 2u;
+}
+
+GNOMON_SHARED_END
+#endif

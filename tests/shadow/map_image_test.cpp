@@ -1,0 +1,117 @@
+// What the rasterizer stores against exact rays through the same texels.
+#include "map_fixture.h"
+
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+RayD texelRay(const FittedMap& fitted, int x, int y) {
+  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, 0, glsl::mapTexelCenter(fitted.map, {x, y}));
+  const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW), glm::dvec3(fitted.frame.backW));
+  return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
+          .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))};
+}
+
+// The four corners of the middle half of a texel: where they do not all see one triangle, the texel's centre is near an edge
+// of one, and the rasterizer's grid of 1/256 texel may decide it otherwise than the ray.
+bool isNearPrimitiveEdge(const Tracer& tracer, const FittedMap& fitted, int x, int y) {
+  std::optional<Primitive> seen;
+  for (int i = 0; i < 4; ++i) {
+    const glm::vec2 uv = (glm::vec2(x, y) + 0.5f + 0.02f * glm::vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1)) /
+                         static_cast<float>(fitted.map.side);
+    const glsl::Ray ray = glsl::mapTexelRay(fitted.map, 0, uv);
+    const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW), glm::dvec3(fitted.frame.backW));
+    const auto hit = tracer.firstHit({.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
+                                      .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))});
+    if (!hit) return true;
+    if (i > 0 && !(*seen == hit->primitive)) return true;
+    seen = hit->primitive;
+  }
+  return false;
+}
+
+class MapImageTest : public gpu::GpuTest {
+ protected:
+  // Texels whose stored distance is off by more than `tolerance` of a depth rounding, edges apart.
+  void compareWithRays(const std::string& scene, const Parameterization& map) {
+    const test::Rendered r = test::render(device(), scene, map, 128, 256, CullMode::None);
+    const std::vector<float> depths = gpu::downloadAs<float>(device(), r.image->depth());
+    size_t off = 0, offAtEdges = 0, covered = 0;
+    for (int y = 0; y < 256; ++y) {
+      for (int x = 0; x < 256; ++x) {
+        const auto hit = r.tracer->firstHit(texelRay(r.fitted, x, y));
+        const float stored = depths[static_cast<size_t>(y) * 256 + x];
+        float expected = 1.0f;
+        if (hit) {
+          const glsl::Ray ray = glsl::mapTexelRay(r.fitted.map, 0, glsl::mapTexelCenter(r.fitted.map, {x, y}));
+          expected = glsl::mapDepth(r.fitted.map, 0, ray.origin + ray.dir * static_cast<float>(hit->distance));
+          ++covered;
+        }
+        // 32 roundings of a depth near 1: the rasterizer's plane equation adds up terms larger than the depth itself.
+        if (std::abs(stored - std::min(expected, 1.0f)) <= 32.0f * 5.97e-8f) continue;
+        if (isNearPrimitiveEdge(*r.tracer, r.fitted, x, y)) ++offAtEdges;
+        else ++off;
+      }
+    }
+    EXPECT_EQ(off, 0u) << scene << " " << map.name();
+    EXPECT_LT(offAtEdges, 256u * 256u / 50) << scene << " " << map.name();
+    EXPECT_GT(covered, 256u * 256u / 4);
+  }
+};
+
+TEST_F(MapImageTest, EveryTexelHoldsTheFirstHitOfItsRaySpot) {
+  compareWithRays("contact", spotParameterization());
+}
+
+TEST_F(MapImageTest, EveryTexelHoldsTheFirstHitOfItsRayDirectional) {
+  compareWithRays("lshape", directionalParameterization());
+}
+
+TEST_F(MapImageTest, EveryTexelHoldsTheFirstHitOfItsRayInInstances) {
+  compareWithRays("crowd:20000", spotParameterization());
+}
+
+// A closed solid seen from outside has a front face before every back face, so leaving the back faces out changes no texel
+// but those where its silhouette falls between the sample points.
+TEST_F(MapImageTest, CullingSolidsChangesOnlySilhouettes) {
+  const test::Rendered all = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
+  const test::Rendered culled = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::Solids);
+  const auto a = gpu::downloadAs<float>(device(), all.image->depth());
+  const auto b = gpu::downloadAs<float>(device(), culled.image->depth());
+  size_t different = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    EXPECT_LE(a[i], b[i]);  // leaving faces out can only uncover
+    different += a[i] != b[i] ? 1 : 0;
+  }
+  EXPECT_LT(different, a.size() / 1000);
+  EXPECT_TRUE(std::ranges::any_of(all.buffers.draws, &Draw::solid));
+}
+
+// The holes of an alpha mask let light through in the map as they do for rays (`sheets` has a masked fence).
+TEST_F(MapImageTest, HolesOfMasksAreHolesOfTheMap) {
+  const test::Rendered r = test::render(device(), "sheets", spotParameterization(), 128, 256, CullMode::None);
+  ASSERT_TRUE(std::ranges::any_of(r.buffers.draws, &Draw::masked));
+  const std::vector<float> depths = gpu::downloadAs<float>(device(), r.image->depth());
+  Scene opaque = findGeneratedScene("sheets")->make();
+  for (Material& material : opaque.materials) material.alphaMode = AlphaMode::Opaque;
+  const Tracer withoutHoles(opaque);
+  size_t holes = 0, wrong = 0;
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 256; ++x) {
+      const RayD ray = texelRay(r.fitted, x, y);
+      const auto through = r.tracer->firstHit(ray);
+      const auto blocked = withoutHoles.firstHit(ray);
+      if (!through || !blocked || std::abs(through->distance - blocked->distance) < 0.05) continue;
+      ++holes;
+      const glsl::Ray rayL = glsl::mapTexelRay(r.fitted.map, 0, glsl::mapTexelCenter(r.fitted.map, {x, y}));
+      const float stored = glsl::mapDistance(r.fitted.map, 0, rayL, depths[static_cast<size_t>(y) * 256 + x]);
+      if (std::abs(stored - static_cast<float>(through->distance)) > 0.02f) ++wrong;
+    }
+  }
+  EXPECT_GT(holes, 50u);
+  EXPECT_LT(wrong, holes / 20);  // at the rims of holes
+}
+
+}  // namespace
+}  // namespace gnomon
