@@ -1,6 +1,6 @@
 // Which operations give the same bits in a shader and in C++: the shared mathematics is built on this.
-// Operation by operation: Mesa's compiler may gather constants, so that x - 0.5f - y + 1e-7f, which adds two of them,
-// differs from C++ by their rounding.
+// Operation by operation: Mesa's compiler may gather constants, so that x - 0.5f - y + 1e-7f, which adds two
+// of them, differs from C++ by their rounding.
 #include "tests/arithmetic.glsl"
 #include "tests/run_kernel.h"
 
