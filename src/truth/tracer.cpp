@@ -252,6 +252,8 @@ void Tracer::Impl::traceOne(const ShadowSegment& segment, double enough, double&
   rtcOccluded1(top.get(), &query.rtc, &ray);
 }
 
+// Not flagged as coherent: with instances in the scene Embree 3.13.5's coherent packet path was seen not to
+// return.
 void Tracer::Impl::tracePacket(std::span<const ShadowSegment> segments, double enough,
                                double* heights) const {
   glm::dvec3 receivers[kPacket];

@@ -7,15 +7,16 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace gnomon::test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// --- A lone plane ----------------------------------------------------------------------------------------------------
+// --- A lone plane
+// ----------------------------------------------------------------------------------------------------
 
 struct Tilt {
   bool directional;
@@ -28,19 +29,24 @@ void PrintTo(const Tilt& tilt, std::ostream* out) {
 
 class LonePlane : public testing::TestWithParam<Tilt> {
  protected:
-  // The plane through the origin is tilted about an axis that is aligned with nothing; the light hangs 6 m above it.
+  // The plane through the origin is tilted about an axis that is aligned with nothing; the light hangs 6 m
+  // above it.
   Shot shoot() const {
     Scene scene = emptyScene();
     addFloor(scene, 0.0, 60.0);
-    moveAll(scene, glm::rotate(glm::dmat4(1.0), GetParam().degrees * kDegree, glm::normalize(glm::dvec3(2, 0.3, 1))));
+    moveAll(scene, glm::rotate(glm::dmat4(1.0), GetParam().degrees * kDegree,
+                               glm::normalize(glm::dvec3(2, 0.3, 1))));
     const LightModel light =
         GetParam().directional ? directionalLight({0.1, -1.0, 0.05}) : pointLight({0.3, 6.0, -0.2});
     return takeShot(std::move(scene), viewFrom({0.5, 5.0, 0.4}, {0, 0, 0}, 0.5, 200, 200), light);
   }
   ReferenceMap map(const Shot& shot) const {
     return traceReferenceMap(*shot.tracer, shot.light,
-                             {.targetW = {0, 0, 0}, .halfExtent = GetParam().directional ? 8.0 : 0.8, .side = 96,
-                              .near = GetParam().directional ? 1.0 : 0.2, .far = GetParam().directional ? 80.0 : 60.0});
+                             {.targetW = {0, 0, 0},
+                              .halfExtent = GetParam().directional ? 8.0 : 0.8,
+                              .side = 96,
+                              .near = GetParam().directional ? 1.0 : 0.2,
+                              .far = GetParam().directional ? 80.0 : 60.0});
   }
 };
 
@@ -57,7 +63,8 @@ TEST_P(LonePlane, NeverHasAnEdgeOrALeakAndIsAllLit) {
   }
 }
 
-// The plane's depth grows in one direction across a texel; the half beyond the centre is deeper than what is stored.
+// The plane's depth grows in one direction across a texel; the half beyond the centre is deeper than what is
+// stored.
 TEST_P(LonePlane, WithoutBiasHasAcneOnHalfOfItsPixels) {
   const Shot shot = shoot();
   const LabelImage image = labelShot(shot, map(shot), glsl::kBiasNone, defaultBias());
@@ -78,11 +85,12 @@ INSTANTIATE_TEST_SUITE_P(Tilts, LonePlane,
                          testing::Values(Tilt{false, 7}, Tilt{false, 30}, Tilt{false, 55}, Tilt{false, 70},
                                          Tilt{true, 5}, Tilt{true, 33}, Tilt{true, 60}, Tilt{true, 75}));
 
-// --- Detachment ------------------------------------------------------------------------------------------------------
+// --- Detachment
+// ------------------------------------------------------------------------------------------------------
 
-// A box [0,w] x [0,h] x [-l,l] on the floor y = 0. Light comes from -x at the elevation e. It reaches the floor at
-// x = w + u through the face x = 0, which the map holds, (w + u) / cos e metres before the floor, as long as
-// w + u < h / tan e. A constant bias of b metres steps over that face where (w + u) / cos e < b:
+// A box [0,w] x [0,h] x [-l,l] on the floor y = 0. Light comes from -x at the elevation e. It reaches the
+// floor at x = w + u through the face x = 0, which the map holds, (w + u) / cos e metres before the floor, as
+// long as w + u < h / tan e. A constant bias of b metres steps over that face where (w + u) / cos e < b:
 //
 //      \  light                     u
 //       \  +--+                 |<------>|
@@ -103,12 +111,15 @@ TEST(Detachment, LeakHasTheAreaThatTheConstantBiasOpens) {
   params.constantOffset = static_cast<float>(b);
   const LabelImage image = labelShot(shot, map, glsl::kBiasConstant, params);
 
-  // Square metres of floor a pixel covers: its solid angle, times distance squared, over the cosine at the floor.
-  const double pixelArea = 4.0 * static_cast<double>(camera.tanHalfX) * static_cast<double>(camera.tanHalfY) / (400.0 * 400.0);
+  // Square metres of floor a pixel covers: its solid angle, times distance squared, over the cosine at the
+  // floor.
+  const double pixelArea =
+      4.0 * static_cast<double>(camera.tanHalfX) * static_cast<double>(camera.tanHalfY) / (400.0 * 400.0);
   double area = 0.0;
   size_t outside = 0;
   const double texel = 2.0 * window.halfExtent / window.side;
-  const double stray = texel * (1.0 / std::sin(e) + 1.0 / std::cos(e));  // of u, when the texel's centre is asked
+  const double stray =
+      texel * (1.0 / std::sin(e) + 1.0 / std::cos(e));  // of u, when the texel's centre is asked
   for (size_t i = 0; i < image.labels.size(); ++i) {
     if (image.labels[i] != Label::Leak) continue;
     const glm::dvec3 p = shot.receivers.samples[i].positionW;
@@ -116,7 +127,8 @@ TEST(Detachment, LeakHasTheAreaThatTheConstantBiasOpens) {
     const double t = (p.y - static_cast<double>(camera.eyeW.y)) / dir.y;
     if (p.y < 1e-6) area += pixelArea * t * t / std::abs(dir.y);
     const double u = p.x - w;
-    outside += p.y < 1e-6 && (u < -1e-6 || u > b * std::cos(e) - w + stray || std::abs(p.z) > l + texel) ? 1 : 0;
+    outside +=
+        p.y < 1e-6 && (u < -1e-6 || u > b * std::cos(e) - w + stray || std::abs(p.z) > l + texel) ? 1 : 0;
   }
   const double expected = 2.0 * l * (b * std::cos(e) - w);
   // The strip's far border lies within half a texel's stray; a pixel is 1.6 cm wide and counts as a whole.
@@ -134,16 +146,20 @@ TEST(Detachment, AdaptiveLeaksNothingAtABoxOnAFloor) {
   addFloor(scene, 0.0, 12.0);
   addBox(scene, {0, 0, -1.5}, {0.2, 2, 1.5});
   const LightModel light = directionalLight({1, -1, 0});
-  const Shot shot = takeShot(std::move(scene), viewFrom({1.2, 9.0, 0.02}, {0.7, 0.0, 0.0}, 0.7, 300, 300), light);
-  const ReferenceMap map = traceReferenceMap(
-      *shot.tracer, light, {.targetW = {0.5, 0, 0}, .halfExtent = 4.0, .side = 512, .near = 0.5, .far = 30.0});
+  const Shot shot =
+      takeShot(std::move(scene), viewFrom({1.2, 9.0, 0.02}, {0.7, 0.0, 0.0}, 0.7, 300, 300), light);
+  const ReferenceMap map =
+      traceReferenceMap(*shot.tracer, light,
+                        {.targetW = {0.5, 0, 0}, .halfExtent = 4.0, .side = 512, .near = 0.5, .far = 30.0});
   const LabelImage image = labelShot(shot, map, glsl::kBiasAdaptive, defaultBias());
-  // Adaptive's own epsilon, sceneScale * K = 3.4 mm along the ray, opens a strip narrower than a pixel (2.2 cm).
+  // Adaptive's own epsilon, sceneScale * K = 3.4 mm along the ray, opens a strip narrower than a pixel (2.2
+  // cm).
   EXPECT_LE(image.count(Label::Leak), 300u) << showCounts(image);
   EXPECT_GT(image.count(Label::Agree), shot.receivers.scored * 9 / 10);
 }
 
-// --- A silhouette ----------------------------------------------------------------------------------------------------
+// --- A silhouette
+// ----------------------------------------------------------------------------------------------------
 
 double distanceToLine(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
   const glm::dvec2 along = b - a;
@@ -153,8 +169,9 @@ double distanceToLine(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
 
 class FloatingPlate : public testing::TestWithParam<bool> {};
 
-// A projective map keeps lines straight, so the plate's outline in texels is four segments, and only a pixel whose texel
-// holds a piece of outline can be wrong: within half a diagonal of its texel's centre, so within a whole one of itself.
+// A projective map keeps lines straight, so the plate's outline in texels is four segments, and only a pixel
+// whose texel holds a piece of outline can be wrong: within half a diagonal of its texel's centre, so within
+// a whole one of itself.
 TEST_P(FloatingPlate, GivesEdgesOfATexelAndNeitherAcneNorLeak) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 15.0);
@@ -163,9 +180,9 @@ TEST_P(FloatingPlate, GivesEdgesOfATexelAndNeitherAcneNorLeak) {
   addTriangle(scene, corners[0], corners[2], corners[3]);
   const LightModel light = GetParam() ? directionalLight({0.3, -1, 0.2}) : pointLight({0.2, 6.0, 0.1});
   const Shot shot = takeShot(std::move(scene), viewFrom({3.0, 6.0, 5.0}, {0.5, 0, 0}, 0.8, 300, 300), light);
-  const ReferenceMap map = traceReferenceMap(*shot.tracer, light,
-                                             {.targetW = {0, 0, 0}, .halfExtent = GetParam() ? 6.0 : 1.2, .side = 64,
-                                              .near = 0.5, .far = 30.0});
+  const ReferenceMap map = traceReferenceMap(
+      *shot.tracer, light,
+      {.targetW = {0, 0, 0}, .halfExtent = GetParam() ? 6.0 : 1.2, .side = 64, .near = 0.5, .far = 30.0});
   const LabelImage image = labelShot(shot, map, glsl::kBiasAdaptive, defaultBias());
   EXPECT_EQ(image.count(Label::Acne), 0u) << showCounts(image);
   EXPECT_EQ(image.count(Label::Leak), 0u) << showCounts(image);
@@ -178,7 +195,8 @@ TEST_P(FloatingPlate, GivesEdgesOfATexelAndNeitherAcneNorLeak) {
     const glm::dvec2 texel = map.texelOf(shot.receivers.samples[i].positionW);
     double nearest = 1e9;
     for (int k = 0; k < 4; ++k) {
-      nearest = std::min(nearest, distanceToLine(texel, map.texelOf(corners[k]), map.texelOf(corners[(k + 1) % 4])));
+      nearest = std::min(nearest,
+                         distanceToLine(texel, map.texelOf(corners[k]), map.texelOf(corners[(k + 1) % 4])));
     }
     const bool wrong = image.labels[i] == Label::EdgeShadow || image.labels[i] == Label::EdgeLight;
     const double bound = 0.5 * std::numbers::sqrt2 + 1e-3;
@@ -190,10 +208,11 @@ TEST_P(FloatingPlate, GivesEdgesOfATexelAndNeitherAcneNorLeak) {
 
 INSTANTIATE_TEST_SUITE_P(Lights, FloatingPlate, testing::Bool());
 
-// --- A concave corner ------------------------------------------------------------------------------------------------
+// --- A concave corner
+// ------------------------------------------------------------------------------------------------
 
-// Where a coarse texel's centre lies on the other wall, the receiver's plane extended to its ray is behind that wall:
-// adaptive calls it shadow. Nothing casts one, so this is acne and no edge.
+// Where a coarse texel's centre lies on the other wall, the receiver's plane extended to its ray is behind
+// that wall: adaptive calls it shadow. Nothing casts one, so this is acne and no edge.
 TEST(ConcaveCorner, UnderACoarseMapHasAcneAndNoEdge) {
   Scene scene = emptyScene();
   addQuad(scene, {0, 0, -20}, {0, 0, 20}, {20, 0, 20}, {20, 0, -20});
@@ -201,15 +220,16 @@ TEST(ConcaveCorner, UnderACoarseMapHasAcneAndNoEdge) {
   const LightModel light = pointLight({3.0, 2.5, 0.2});
   const Shot shot = takeShot(std::move(scene), viewFrom({4, 4, 1}, {0, 0, 0}, 0.7, 300, 300), light);
   EXPECT_EQ(shot.truth.litCount, shot.receivers.scored);
-  const ReferenceMap map = traceReferenceMap(*shot.tracer, light,
-                                             {.targetW = {0, 0, 0.3}, .halfExtent = 1.0, .side = 17, .near = 0.2, .far = 40.0});
+  const ReferenceMap map = traceReferenceMap(
+      *shot.tracer, light, {.targetW = {0, 0, 0.3}, .halfExtent = 1.0, .side = 17, .near = 0.2, .far = 40.0});
   const LabelImage image = labelShot(shot, map, glsl::kBiasAdaptive, defaultBias());
   EXPECT_GT(image.count(Label::Acne), 300u) << showCounts(image);
   EXPECT_EQ(image.count(Label::EdgeShadow) + image.count(Label::EdgeLight) + image.count(Label::Leak), 0u)
       << showCounts(image);
 }
 
-// --- Bookkeeping -----------------------------------------------------------------------------------------------------
+// --- Bookkeeping
+// -----------------------------------------------------------------------------------------------------
 
 TEST(Labels, AddUpToTheScoredPixels) {
   Scene scene = emptyScene();
@@ -224,7 +244,8 @@ TEST(Labels, AddUpToTheScoredPixels) {
   EXPECT_GT(shot.receivers.facingAway, 0u);
   EXPECT_GT(shot.receivers.outsideCone, 0u);
   // A window smaller than the cone, so that some pixels are uncovered.
-  const ReferenceMap map = traceReferenceMap(*shot.tracer, light, {.targetW = {0.3, 0, 0.2}, .halfExtent = 0.7});
+  const ReferenceMap map =
+      traceReferenceMap(*shot.tracer, light, {.targetW = {0.3, 0, 0.2}, .halfExtent = 0.7});
   for (const int method : {glsl::kBiasNone, glsl::kBiasConstant, glsl::kBiasSlope, glsl::kBiasAdaptive}) {
     const LabelImage image = labelShot(shot, map, method, defaultBias());
     size_t sum = 0;

@@ -6,15 +6,17 @@
 #include <cmath>
 #include <random>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace gnomon::test {
 namespace {
 
 const glm::dvec3 kLight(0.2, 6.0, -0.3);
 
-RayD from(const glm::dvec3& lightW, const glm::dvec3& to) { return {lightW, glm::normalize(to - lightW)}; }
+RayD from(const glm::dvec3& lightW, const glm::dvec3& to) {
+  return {lightW, glm::normalize(to - lightW)};
+}
 
 bool continuous(const Tracer& tracer, const glm::dvec3& a, const glm::dvec3& b) {
   const double margin = endMargin(tracer.scene());
@@ -38,7 +40,8 @@ TEST(Continuity, ConvexCreaseIsOnePiece) {
 TEST(Continuity, ConcaveCornerIsOnePiece) {
   Scene scene = emptyScene();
   addQuad(scene, {0, 0, -5}, {0, 0, 5}, {5, 0, 5}, {5, 0, -5});
-  addQuad(scene, {-0.5, -1, -5}, {-0.5, 4, -5}, {-0.5, 4, 5}, {-0.5, -1, 5});  // passes through the floor's level
+  addQuad(scene, {-0.5, -1, -5}, {-0.5, 4, -5}, {-0.5, 4, 5},
+          {-0.5, -1, 5});  // passes through the floor's level
   addQuad(scene, {-2, 0, -5}, {-2, 0, 5}, {0, 0, 5}, {0, 0, -5});
   EXPECT_TRUE(continuous(scene, {1.0, 0, 0.2}, {-0.5, 1.0, 0.3}));
   EXPECT_TRUE(continuous(scene, {-0.49, 0, 0.2}, {-0.5, 0.01, 0.2}));
@@ -54,7 +57,8 @@ TEST(Continuity, TessellatedSphereIsOnePiece) {
     for (int i = 0; i < 200; ++i) {
       const glm::dvec3 a = glm::normalize(glm::dvec3(unit(random), 1.2, unit(random)));
       const glm::dvec3 b = glm::normalize(a + 0.05 * glm::dvec3(unit(random), unit(random), unit(random)));
-      EXPECT_TRUE(continuous(tracer, glm::dvec3(0, 1, 0) + 0.99 * a, glm::dvec3(0, 1, 0) + 0.99 * b)) << rings << " " << i;
+      EXPECT_TRUE(continuous(tracer, glm::dvec3(0, 1, 0) + 0.99 * a, glm::dvec3(0, 1, 0) + 0.99 * b))
+          << rings << " " << i;
     }
   }
 }
@@ -77,8 +81,8 @@ TEST(Continuity, SteepCreaseIsOnePiece) {
   }
 }
 
-// The smallest step between two parallel plates that counts as one, over rays a decimetre apart: a thousandth of
-// that, times what slopes are forgiven.
+// The smallest step between two parallel plates that counts as one, over rays a decimetre apart: a thousandth
+// of that, times what slopes are forgiven.
 TEST(Continuity, SeparatePlanesAreTwoPieces) {
   for (const double step : {3.0, 0.1, 0.002}) {
     Scene scene = emptyScene();
@@ -96,17 +100,35 @@ TEST(Continuity, StepsBelowTheMarginAreOnePiece) {
   EXPECT_TRUE(continuous(scene, {0.05, 0, 0.1}, {-0.05, step, 0.1}));
 }
 
-// A leaning slab that hides its own foot: its plane, extended, meets the floor between the rays, and its triangles touch
-// the floor as well, but not where the light looks past its upper border.
+// A leaning slab that hides its own foot: its plane, extended, meets the floor between the rays, and its
+// triangles touch the floor as well, but not where the light looks past its upper border.
 TEST(Continuity, SlabThatLeansOverItsFootIsTwoPieces) {
   Scene scene = emptyScene();
-  addFloor(scene, 0.0, 10.0);
-  addQuad(scene, {-1, 0, -5}, {-1, 0, 5}, {0, 2, 5}, {0, 2, -5});
+  addTriangle(scene, {-30, 0, 30}, {30, 0, 30}, {0, 0, -60});
+  addTriangle(scene, {-1, 0, -30}, {-1, 0, 30}, {0, 2, 0.1});
   EXPECT_FALSE(continuous(scene, {-0.05, 1.9, 0.1}, {0.05, 0, 0.1}));
   EXPECT_FALSE(continuous(scene, {-0.5, 1.0, 0.1}, {0.5, 0, 0.1}));
 }
 
-// The wall of a floating box, seen steeply, then the floor: the wall's plane would reach the floor, the wall does not.
+// Rays that pass the tip of a cone of many facets nearer than the last stretch is wide: the two facets hit
+// there share no edge, only the tip beside the rays.
+TEST(Continuity, ArcPastTheTipOfAConeIsOnePiece) {
+  Scene scene = emptyScene();
+  const int facets = 400;
+  const auto rim = [&](int i) {
+    const double azimuth = 2.0 * 3.14159265358979 * i / facets;
+    return glm::dvec3(std::cos(azimuth), 0.0, std::sin(azimuth));
+  };
+  for (int i = 0; i < facets; ++i) addTriangle(scene, {0, 1, 0}, rim(i), rim((i + 1) % facets));
+  const Tracer tracer(scene);
+  for (int i = 0; i < 200; ++i) {
+    const double past = 1e-6 * (i - 100);
+    EXPECT_TRUE(continuous(tracer, {0.02, 0.98, past}, {-0.03, 0.97, past})) << past;
+  }
+}
+
+// The wall of a floating box, seen steeply, then the floor: the wall's plane would reach the floor, the wall
+// does not.
 TEST(Continuity, WallOfAFloatingBoxIsTwoPiecesFromTheFloor) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 10.0);
@@ -133,6 +155,15 @@ TEST(Continuity, SmallStepBesideALargeCreaseIsFound) {
   addQuad(scene, {0, 0.03, -5}, {0, 0.03, 5}, {1, 0.03, 5}, {1, 0.03, -5});
   addQuad(scene, {1, 0.03, -5}, {1, 0.03, 5}, {2, -4, 5}, {2, -4, -5});
   EXPECT_FALSE(continuous(scene, {-0.5, 0, 0.1}, {1.3, -1.18, 0.1}));
+}
+
+// The same among more facets than there are probes.
+TEST(Continuity, SilhouetteBehindManyFacetsIsFound) {
+  Scene scene = emptyScene();
+  addFloor(scene, 0.0, 10.0);
+  addSphere(scene, {0, 2, 0}, 1.0, 300, 600);
+  const Tracer tracer(scene);
+  for (const double z : {0.0, 0.1, 0.37}) EXPECT_FALSE(continuous(tracer, {0.1, 2.9, z}, {2.5, 0, z})) << z;
 }
 
 TEST(Continuity, DirectionalRaysAreJudgedAlike) {

@@ -9,8 +9,8 @@
 #include <random>
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace gnomon::test {
 namespace {
@@ -20,7 +20,8 @@ Scene roomScene() {
   addFloor(scene, 0.0, 10.0);
   addBox(scene, {-1, 0, -1}, {1, 1, 1});
   const int sphere = addSphere(scene, {2, 1.5, 0}, 0.7, 12, 20);
-  const glm::mat4 mirrored = glm::translate(glm::mat4(1.0f), {1.0f, 0.5f, 3.0f}) * glm::scale(glm::mat4(1.0f), {-0.5f, 0.6f, 0.7f});
+  const glm::mat4 mirrored =
+      glm::translate(glm::mat4(1.0f), {1.0f, 0.5f, 3.0f}) * glm::scale(glm::mat4(1.0f), {-0.5f, 0.6f, 0.7f});
   addInstance(scene, scene.instances[static_cast<size_t>(sphere)].mesh, mirrored);
   return scene;
 }
@@ -38,7 +39,8 @@ TEST(Receivers, LieOnTheirPixelsRayAndOnTheirTriangle) {
       const SurfaceSample& sample = shot.receivers.samples[pixel];
       const glm::dvec3 eye(camera.eyeW);
       const glm::dvec3 dir = glm::normalize(pixelDirectionD(camera, x, y));
-      offRay = std::max(offRay, glm::length(glm::cross(sample.positionW - eye, dir)) / glm::length(sample.positionW - eye));
+      offRay = std::max(
+          offRay, glm::length(glm::cross(sample.positionW - eye, dir)) / glm::length(sample.positionW - eye));
       glm::dvec3 at[3];
       shot.tracer->corners(sample.primitive, at);
       offPlane = std::max(offPlane, std::abs(glm::dot(sample.normalW, sample.positionW - at[0])));
@@ -80,13 +82,20 @@ TEST(Receivers, FaceAwayFromALightInOrBehindTheirPlane) {
     const Shot shot = takeShot(std::move(scene), camera, pointLight({20.0, height, 0.0}));
     EXPECT_EQ(shot.receivers.scored, height > 0.0 ? 1024u : 0u) << height;
   }
+  // From below, where the plane's own normal looks away from the camera.
+  Scene below = emptyScene();
+  addFloor(below, 0.0, 10.0);
+  const Shot inPlane =
+      takeShot(std::move(below), viewFrom({0, -3, 0.1}, {0, 0, 0}, 0.5, 32, 32), pointLight({20, 0, 0}));
+  EXPECT_EQ(inPlane.receivers.facingAway, 1024u);
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 10.0);
   const Shot level = takeShot(std::move(scene), camera, directionalLight({1, 0, 0}));
   EXPECT_EQ(level.receivers.facingAway, 1024u);
 }
 
-// A pixel whose centre the rasterizer gave to a triangle that the ray passes beside gets that triangle's nearest point.
+// A pixel whose centre the rasterizer gave to a triangle that the ray passes beside gets that triangle's
+// nearest point.
 TEST(Receivers, AreClampedToTheTriangleTheGBufferNames) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 0.5);
@@ -101,12 +110,15 @@ TEST(Receivers, AreClampedToTheTriangleTheGBufferNames) {
   }
 }
 
-// shared/geometry.glsl's point, as the shaders compute it in float: how far off the plane, and along it, it strays from
-// the double one. Along the plane costs a fraction of a texel; off the plane is what a bias has to cover.
+// shared/geometry.glsl's point, as the shaders compute it in float: how far off the plane, and along it, it
+// strays from the double one. Along the plane costs a fraction of a texel; off the plane is what a bias has
+// to cover.
 TEST(SurfacePoint, InFloatStaysWithinUlpsOfThePlane) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto point = [&](double scale) { return scale * glm::dvec3(unit(random), unit(random), unit(random)); };
+  const auto point = [&](double scale) {
+    return scale * glm::dvec3(unit(random), unit(random), unit(random));
+  };
   double offPlane = 0.0, aside = 0.0;
   for (int i = 0; i < 100000; ++i) {
     glm::vec3 cornersF[3];
@@ -123,12 +135,13 @@ TEST(SurfacePoint, InFloatStaysWithinUlpsOfThePlane) {
     if (std::abs(glm::dot(normal, ray.dir)) < 0.05) continue;
     const TriangleMeeting meeting = meetTriangle(ray, corners);
     EXPECT_LT(glm::length(meeting.positionW - target), 1e-12);
-    const glsl::SurfacePoint floats = glsl::surfacePoint({eye, glm::vec3(ray.dir)}, cornersF[0], cornersF[1], cornersF[2]);
+    const glsl::SurfacePoint floats =
+        glsl::surfacePoint({eye, glm::vec3(ray.dir)}, cornersF[0], cornersF[1], cornersF[2]);
     offPlane = std::max(offPlane, std::abs(glm::dot(normal, glm::dvec3(floats.position) - corners[0])));
     aside = std::max(aside, glm::length(glm::dvec3(floats.position) - target));
   }
-  // An ulp of a coordinate below 8 is 4.8e-7. Off the plane: two roundings a corner and sum. Aside: the float ray's error
-  // over the cosine of at least 0.05, and triangles as thin as chance makes them.
+  // An ulp of a coordinate below 8 is 4.8e-7. Off the plane: two roundings a corner and sum. Aside: the float
+  // ray's error over the cosine of at least 0.05, and triangles as thin as chance makes them.
   EXPECT_LT(offPlane, 2.0e-6);
   EXPECT_LT(aside, 1e-2);
   RecordProperty("off_plane_metres", fmt::format("{}", offPlane));

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <tbb/parallel_for.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace gnomon::test {
 
@@ -32,7 +32,8 @@ glm::dmat4 clipFromLight(const LightModel& light, const MapWindow& window, const
 }  // namespace
 
 glm::dvec2 ReferenceMap::texelOf(const glm::dvec3& pointW) const {
-  return glm::dvec2(glsl::mapProject(map, glm::vec3(pointW - frameOriginW)).uv) * static_cast<double>(map.side);
+  return glm::dvec2(glsl::mapProject(map, glm::vec3(pointW - frameOriginW)).uv) *
+         static_cast<double>(map.side);
 }
 
 RayD ReferenceMap::texelRay(const glm::dvec3& pointW) const {
@@ -81,13 +82,17 @@ std::vector<Verdict> predict(const ReferenceMap& map, const Receivers& receivers
                              const glsl::BiasParams& params) {
   std::vector<Verdict> verdicts(receivers.states.size(), Verdict::NotAsked);
   for (size_t i = 0; i < verdicts.size(); ++i) {
-    if (receivers.states[i] == PixelState::Scored) verdicts[i] = map.verdict(receivers.samples[i], method, params);
+    if (receivers.states[i] == PixelState::Scored)
+      verdicts[i] = map.verdict(receivers.samples[i], method, params);
   }
   return verdicts;
 }
 
 glsl::BiasParams defaultBias() {
-  return {.constantOffset = 0.05f, .slopeFactor = 1.0f, .slopeOffset = 0.0f, .adaptiveK = 1e-4f,
+  return {.constantOffset = 0.05f,
+          .slopeFactor = 1.0f,
+          .slopeOffset = 0.0f,
+          .adaptiveK = 1e-4f,
           .epsilonAt = glsl::kEpsilonAtOccluder};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// An exact shadow map on the CPU: its texels are traced through mapTexelRay, and its verdicts are biasLit's. What is left
-// to be wrong at a pixel is the bias and the resolution, which is what labels tell apart.
+// An exact shadow map on the CPU: its texels are traced through mapTexelRay, and its verdicts are biasLit's.
+// What is left to be wrong at a pixel is the bias and the resolution, which is what labels tell apart.
 
 #include "truth/labels.h"
 

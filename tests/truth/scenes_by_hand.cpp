@@ -74,8 +74,8 @@ int addSphere(Scene& scene, glm::dvec3 center, double radius, int rings, int seg
   for (int ring = 0; ring < rings; ++ring) {
     for (int segment = 0; segment < segments; ++segment) {
       const auto at = [&](int r, int s) { return static_cast<uint32_t>(r * segments + s % segments); };
-      for (const uint32_t index : {at(ring, segment), at(ring, segment + 1), at(ring + 1, segment + 1), at(ring, segment),
-                                   at(ring + 1, segment + 1), at(ring + 1, segment)}) {
+      for (const uint32_t index : {at(ring, segment), at(ring, segment + 1), at(ring + 1, segment + 1),
+                                   at(ring, segment), at(ring + 1, segment + 1), at(ring + 1, segment)}) {
         indices.push_back(index);
       }
     }

@@ -33,7 +33,8 @@ std::vector<glsl::PrimitiveId> traceIds(const Tracer& tracer, const glsl::Camera
     for (int x = 0; x < camera.width; ++x) {
       const RayD ray{glm::dvec3(camera.eyeW), glm::normalize(pixelDirectionD(camera, x, y))};
       const std::optional<SurfaceHit> hit = tracer.firstHit(ray);
-      glsl::PrimitiveId& id = ids[static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x)];
+      glsl::PrimitiveId& id =
+          ids[static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x)];
       if (hit) id = {hit->primitive.instance + 1, hit->primitive.triangle};
     }
   });

@@ -9,13 +9,15 @@
 #include <cmath>
 #include <random>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace gnomon::test {
 namespace {
 
-RayD rayBetween(const glm::dvec3& from, const glm::dvec3& to) { return {from, glm::normalize(to - from)}; }
+RayD rayBetween(const glm::dvec3& from, const glm::dvec3& to) {
+  return {from, glm::normalize(to - from)};
+}
 
 // From a light to a point on `own`, as computeTruth asks.
 struct Asked {
@@ -25,7 +27,8 @@ struct Asked {
   glm::dvec3 normal;
 };
 
-Asked askPoint(const Tracer& tracer, const glm::dvec3& lightW, const Primitive& own, const glm::dvec3& weights) {
+Asked askPoint(const Tracer& tracer, const glm::dvec3& lightW, const Primitive& own,
+               const glm::dvec3& weights) {
   glm::dvec3 at[3];
   tracer.corners(own, at);
   const glm::dvec3 point = at[0] * weights.x + at[1] * weights.y + at[2] * weights.z;
@@ -125,7 +128,8 @@ TEST_P(OwnAndCoplanar, NeverBlock) {
     const double margin = endMargin(scene);
     for (int i = 0; i < 500; ++i) {
       const double lowest = i % 2 == 0 ? 0.5 : 0.02;  // half of the lights graze
-      const glm::dvec3 lightW(moved * glm::dvec4(3.0 * unit(random), lowest + std::abs(unit(random)), 3.0 * unit(random), 1));
+      const glm::dvec3 lightW(
+          moved * glm::dvec4(3.0 * unit(random), lowest + std::abs(unit(random)), 3.0 * unit(random), 1));
       const Primitive own{static_cast<uint32_t>(i % 6), 0};
       const double u = 0.5 + 0.5 * unit(random), v = (1.0 - u) * (0.5 + 0.5 * unit(random));
       ++asked;
@@ -137,7 +141,8 @@ TEST_P(OwnAndCoplanar, NeverBlock) {
 
 INSTANTIATE_TEST_SUITE_P(MetresFromTheOrigin, OwnAndCoplanar, testing::Values(0.0, 10.0, 1000.0));
 
-// --- Brute force -----------------------------------------------------------------------------------------------------
+// --- Brute force
+// -----------------------------------------------------------------------------------------------------
 
 // What a loop in double says, and how near any of its decisions was to going the other way, in metres.
 struct Brute {
@@ -177,9 +182,9 @@ Brute bruteForce(const Tracer& tracer, const Scene& scene, const Asked& asked, d
       if (through || fromEdge < 1e-3) {
         const double undecided = std::min(std::abs(t), std::abs(height - margin));
         result.closest = std::min(result.closest, through && inFront ? std::min(fromEdge, undecided)
-                                                  : through         ? undecided
-                                                  : inFront         ? fromEdge
-                                                                    : std::max(fromEdge, undecided));
+                                                  : through          ? undecided
+                                                  : inFront          ? fromEdge
+                                                                     : std::max(fromEdge, undecided));
       }
     }
   }
@@ -189,7 +194,9 @@ Brute bruteForce(const Tracer& tracer, const Scene& scene, const Asked& asked, d
 Scene makeSoup(bool instanced, double offset) {
   std::mt19937 random(instanced ? 5 : 3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto point = [&](double scale) { return scale * glm::dvec3(unit(random), unit(random), unit(random)); };
+  const auto point = [&](double scale) {
+    return scale * glm::dvec3(unit(random), unit(random), unit(random));
+  };
   Scene scene = emptyScene();
   const int meshes = instanced ? 4 : 40;
   for (int m = 0; m < meshes; ++m) {
@@ -201,7 +208,8 @@ Scene makeSoup(bool instanced, double offset) {
     const int mesh = scene.instances[static_cast<size_t>(added)].mesh;
     for (int i = 0; i < 10; ++i) {
       const glm::dvec3 axis = glm::normalize(point(1.0));
-      glm::dmat4 matrix = glm::translate(glm::dmat4(1.0), point(1.5) + glm::dvec3(offset)) * glm::rotate(glm::dmat4(1.0), 3.0 * unit(random), axis);
+      glm::dmat4 matrix = glm::translate(glm::dmat4(1.0), point(1.5) + glm::dvec3(offset)) *
+                          glm::rotate(glm::dmat4(1.0), 3.0 * unit(random), axis);
       matrix = glm::scale(matrix, {1.0 + 0.5 * unit(random), i % 2 == 0 ? -1.0 : 1.0, 0.7});
       addInstance(scene, mesh, glm::mat4(matrix));
     }
@@ -216,8 +224,8 @@ struct Soup {
 
 class BruteForce : public testing::TestWithParam<Soup> {};
 
-// 10^5 segments. Only those may differ that pass an edge, or end at the margin, nearer than the float ray can tell:
-// 2^-22 of the largest coordinate and of the ray's length, of the order of one ulp.
+// 10^5 segments. Only those may differ that pass an edge, or end at the margin, nearer than the float ray can
+// tell: 2^-22 of the largest coordinate and of the ray's length, of the order of one ulp.
 TEST_P(BruteForce, AgreesWithALoopInDouble) {
   const Scene scene = makeSoup(GetParam().instanced, GetParam().offset);
   const Tracer tracer(scene);
@@ -227,7 +235,8 @@ TEST_P(BruteForce, AgreesWithALoopInDouble) {
   const double bound = 0x1p-22 * (GetParam().offset + 8.0) * (GetParam().instanced ? 8.0 : 1.0);
   size_t differing = 0, beyond = 0, blocked = 0;
   for (int i = 0; i < 100000; ++i) {
-    const glm::dvec3 lightW(glm::vec3(glm::dvec3(GetParam().offset) + 4.0 * glm::dvec3(unit(random), unit(random), unit(random))));
+    const glm::dvec3 lightW(glm::vec3(glm::dvec3(GetParam().offset) +
+                                      4.0 * glm::dvec3(unit(random), unit(random), unit(random))));
     const Primitive own{static_cast<uint32_t>(random() % scene.instances.size()), 0};
     const double u = 0.5 + 0.5 * unit(random), v = (1.0 - u) * (0.5 + 0.5 * unit(random));
     const Asked asked = askPoint(tracer, lightW, own, {1.0 - u - v, u, v});
@@ -244,7 +253,8 @@ TEST_P(BruteForce, AgreesWithALoopInDouble) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Soups, BruteForce,
-                         testing::Values(Soup{false, 0.0}, Soup{true, 0.0}, Soup{false, 1000.0}, Soup{true, 100.0}));
+                         testing::Values(Soup{false, 0.0}, Soup{true, 0.0}, Soup{false, 1000.0},
+                                         Soup{true, 100.0}));
 
 TEST(Packets, SayWhatSingleRaysSay) {
   const Scene scene = makeSoup(true, 0.0);
@@ -276,7 +286,8 @@ TEST(Instances, SqueezedFlatStillBlock) {
   addFloor(scene, 0.0, 5.0);
   const int box = addBox(scene, {-0.5, 0.5, -0.5}, {0.5, 1.5, 0.5});
   const int mesh = scene.instances[static_cast<size_t>(box)].mesh;
-  const glm::mat4 flat = glm::translate(glm::mat4(1.0f), {2.5f, 1.0f, 0.0f}) * glm::scale(glm::mat4(1.0f), {1.0f, 0.0f, 1.0f});
+  const glm::mat4 flat =
+      glm::translate(glm::mat4(1.0f), {2.5f, 1.0f, 0.0f}) * glm::scale(glm::mat4(1.0f), {1.0f, 0.0f, 1.0f});
   addInstance(scene, mesh, flat);
   const Tracer tracer(scene);
   const std::optional<SurfaceHit> hit = tracer.firstHit({{2.4, 3, 0.1}, {0, -1, 0}});
@@ -285,17 +296,41 @@ TEST(Instances, SqueezedFlatStillBlock) {
   EXPECT_TRUE(tracer.occluded({{2.4, 3, 0.1}, {0, -1, 0}}, 3.0, {0, 0}, {0, 1, 0}, 1e-5));
 }
 
+// The quad's border is at x = 0; a float ray that started at the light, a thousand kilometres off, would
+// stray by 3 cm.
 TEST(FarLight, StillSeesTheSceneInFullPrecision) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 1.0);
   addQuad(scene, {-0.5, 0.5, -0.5}, {0, 0.5, -0.5}, {0, 0.5, 0.5}, {-0.5, 0.5, 0.5});
   const Tracer tracer(scene);
-  const glm::dvec3 lightW(0.0, 1e6, 0.0);
-  // The quad's border is at x = 0; a float ray from a thousand kilometres could be off by 6 cm.
-  for (const double x : {-1e-5, 1e-5}) {
-    const glm::dvec3 p(x, 0.0, 0.1);
-    EXPECT_EQ(tracer.occluded(rayBetween(lightW, p), glm::length(p - lightW), {0, 0}, {0, 1, 0}, 1e-6), x < 0.0);
+  const glm::dvec3 up = glm::normalize(glm::dvec3(0.3, 1.0, -0.2));
+  for (const double x : {-1e-4, -1e-5, 1e-5, 1e-4}) {
+    const glm::dvec3 q(x, 0.5, 0.1);
+    const glm::dvec3 p = q - up * (0.5 / up.y);
+    const glm::dvec3 lightW = q + up * 1e6;
+    EXPECT_EQ(tracer.occluded(rayBetween(lightW, p), glm::length(p - lightW), {0, 0}, {0, 1, 0}, 1e-6),
+              x < 0.0)
+        << x;
+    const std::optional<SurfaceHit> hit = tracer.firstHit(rayBetween(lightW, p));
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_EQ(hit->primitive.instance, x < 0.0 ? 1u : 0u);
   }
+}
+
+// At no margin at all, what keeps a triangle from blocking itself is its name.
+TEST(Own, NeverBlocksEvenWithoutAMargin) {
+  Scene scene = emptyScene();
+  addTriangle(scene, {-1.1, 0.3, -1.2}, {1.7, 0.9, 0.1}, {-0.4, -0.6, 1.3});
+  const Tracer tracer(scene);
+  std::mt19937 random(29);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  size_t blocked = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double u = 0.5 + 0.5 * unit(random), v = (1.0 - u) * (0.5 + 0.5 * unit(random));
+    const glm::dvec3 lightW = 5.0 * glm::dvec3(unit(random), unit(random), unit(random));
+    blocked += occluded(tracer, askPoint(tracer, lightW, {0, 0}, {1.0 - u - v, u, v}), 0.0) ? 1 : 0;
+  }
+  EXPECT_EQ(blocked, 0u);
 }
 
 TEST(TracerDeathTest, RefusesAPrimitiveThatIsNotThere) {

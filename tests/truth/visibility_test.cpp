@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace gnomon::test {
 namespace {
@@ -36,15 +36,19 @@ TEST(LightRays, OfADirectionalLightStartOutsideTheBounds) {
   }
 }
 
-// A unit box's shadow on the floor from a light straight above its middle, at the height 3: a square of side 3/2.
+// A unit box's shadow on the floor from a light straight above its middle, at the height 3: a square of side
+// 3/2.
 TEST(Truth, ShadowOfABoxHasItsAnalyticOutline) {
   Scene scene = emptyScene();
   const int floor = addFloor(scene, 0.0, 10.0);
   addBox(scene, {-0.5, 0, -0.5}, {0.5, 1, 0.5});
-  const Shot shot = takeShot(std::move(scene), viewFrom({2, 6, 3}, {0, 0, 0}, 0.7, 300, 300), pointLight({0, 3, 0}));
+  const Shot shot =
+      takeShot(std::move(scene), viewFrom({2, 6, 3}, {0, 0, 0}, 0.7, 300, 300), pointLight({0, 3, 0}));
   for (size_t i = 0; i < shot.truth.lit.size(); ++i) {
     const SurfaceSample& sample = shot.receivers.samples[i];
-    if (shot.receivers.states[i] != PixelState::Scored || sample.primitive.instance != static_cast<uint32_t>(floor)) continue;
+    if (shot.receivers.states[i] != PixelState::Scored ||
+        sample.primitive.instance != static_cast<uint32_t>(floor))
+      continue;
     const double reach = std::max(std::abs(sample.positionW.x), std::abs(sample.positionW.z));
     EXPECT_TRUE((shot.truth.lit[i] == 1) == (reach > 0.75) || std::abs(reach - 0.75) < 1e-6) << reach;
   }
@@ -54,7 +58,8 @@ TEST(Truth, ShadowOfABoxHasItsAnalyticOutline) {
 
 class Contact : public testing::TestWithParam<double> {};
 
-// Boxes stand on the floor, turned and moved so that their corners are rounded; the camera looks at the foot of one.
+// Boxes stand on the floor, turned and moved so that their corners are rounded; the camera looks at the foot
+// of one.
 TEST_P(Contact, TruthIsStableAtTheFootOfABox) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 4.0);
@@ -82,8 +87,9 @@ TEST(Truth, ConvexSurfaceDoesNotShadowItself) {
     Scene scene = emptyScene();
     const glm::dvec3 center = offset * glm::dvec3(1, 1, -1);
     addSphere(scene, center, 1.0, 60, 120);
-    const Shot shot = takeShot(std::move(scene), viewFrom(center + glm::dvec3(2, 2, 3), center, 0.6, 300, 300),
-                               pointLight(center + glm::dvec3(5, 4, 1)));
+    const Shot shot =
+        takeShot(std::move(scene), viewFrom(center + glm::dvec3(2, 2, 3), center, 0.6, 300, 300),
+                 pointLight(center + glm::dvec3(5, 4, 1)));
     EXPECT_EQ(shot.truth.litCount, shot.receivers.scored) << offset;
     EXPECT_GT(shot.receivers.scored, 20000u);
   }
@@ -93,7 +99,8 @@ TEST(Truth, SaysTheSameTwice) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 10.0);
   addSphere(scene, {0, 1, 0}, 0.7, 30, 40);
-  const Shot shot = takeShot(std::move(scene), viewFrom({2, 6, 3}, {0, 0, 0}, 0.7, 200, 200), pointLight({0, 3, 0}));
+  const Shot shot =
+      takeShot(std::move(scene), viewFrom({2, 6, 3}, {0, 0, 0}, 0.7, 200, 200), pointLight({0, 3, 0}));
   const Truth again = computeTruth(*shot.tracer, shot.light, shot.receivers);
   EXPECT_EQ(again.lit, shot.truth.lit);
   EXPECT_EQ(again.marginFlipsDouble, shot.truth.marginFlipsDouble);
