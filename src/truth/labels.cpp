@@ -276,8 +276,7 @@ const char* labelName(Label label) {
     case Label::Uncovered:
       return "uncovered";
   }
-  GNOMON_CHECK(!"a label outside the enumeration");
-  return "";
+  detail::checkFailed(__FILE__, __LINE__, "label", fmt::format("{}", static_cast<int>(label)));
 }
 
 LabelImage labelPixels(const Tracer& tracer, const LightModel& light, const Receivers& receivers,
