@@ -14,6 +14,7 @@
 // Acne and leak are what a bias is answerable for. "Before" means by more than the end margin of the truth's
 // rays.
 
+#include "truth/continuity.h"
 #include "truth/visibility.h"
 
 #include <array>
@@ -41,13 +42,5 @@ struct LabelImage {
 LabelImage labelPixels(const Tracer& tracer, const LightModel& light, const Receivers& receivers,
                        const Truth& truth, std::span<const Verdict> verdicts,
                        const std::function<RayD(size_t pixel)>& texelRay);
-
-// Whether the surface first hit stays in one piece, seen from the light, between two light rays: halves the
-// stretch with the largest jump kBisectionSteps times, to a thousandth of the whole, and judges there
-// (labels.cpp says how). Two hits on one triangle, or on two that are one plane to within the margin, count
-// as one piece whatever stands between: a map that holds the receiver's own plane has nothing to excuse it.
-// Two rays that hit nothing count as one piece too.
-inline constexpr int kBisectionSteps = 10;
-bool continuousBetween(const Tracer& tracer, const RayD& a, const RayD& b, double margin);
 
 }  // namespace gnomon

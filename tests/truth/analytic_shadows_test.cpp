@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// --- A lone plane
-// ----------------------------------------------------------------------------------------------------
+// --- A lone plane --------------------------------------------------------------------------------------
 
 struct Tilt {
   bool directional;
@@ -85,8 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Tilts, LonePlane,
                          testing::Values(Tilt{false, 7}, Tilt{false, 30}, Tilt{false, 55}, Tilt{false, 70},
                                          Tilt{true, 5}, Tilt{true, 33}, Tilt{true, 60}, Tilt{true, 75}));
 
-// --- Detachment
-// ------------------------------------------------------------------------------------------------------
+// --- Detachment ----------------------------------------------------------------------------------------
 
 // A box [0,w] x [0,h] x [-l,l] on the floor y = 0. Light comes from -x at the elevation e. It reaches the
 // floor at x = w + u through the face x = 0, which the map holds, (w + u) / cos e metres before the floor, as
@@ -158,8 +156,7 @@ TEST(Detachment, AdaptiveLeaksNothingAtABoxOnAFloor) {
   EXPECT_GT(image.count(Label::Agree), shot.receivers.scored * 9 / 10);
 }
 
-// --- A silhouette
-// ----------------------------------------------------------------------------------------------------
+// --- A silhouette --------------------------------------------------------------------------------------
 
 double distanceToLine(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
   const glm::dvec2 along = b - a;
@@ -208,8 +205,7 @@ TEST_P(FloatingPlate, GivesEdgesOfATexelAndNeitherAcneNorLeak) {
 
 INSTANTIATE_TEST_SUITE_P(Lights, FloatingPlate, testing::Bool());
 
-// --- A concave corner
-// ------------------------------------------------------------------------------------------------
+// --- A concave corner ----------------------------------------------------------------------------------
 
 // Where a coarse texel's centre lies on the other wall, the receiver's plane extended to its ray is behind
 // that wall: adaptive calls it shadow. Nothing casts one, so this is acne and no edge.
@@ -228,8 +224,7 @@ TEST(ConcaveCorner, UnderACoarseMapHasAcneAndNoEdge) {
       << showCounts(image);
 }
 
-// --- Bookkeeping
-// -----------------------------------------------------------------------------------------------------
+// --- Bookkeeping ---------------------------------------------------------------------------------------
 
 TEST(Labels, AddUpToTheScoredPixels) {
   Scene scene = emptyScene();

@@ -141,8 +141,7 @@ TEST_P(OwnAndCoplanar, NeverBlock) {
 
 INSTANTIATE_TEST_SUITE_P(MetresFromTheOrigin, OwnAndCoplanar, testing::Values(0.0, 10.0, 1000.0));
 
-// --- Brute force
-// -----------------------------------------------------------------------------------------------------
+// --- Brute force ---------------------------------------------------------------------------------------
 
 // What a loop in double says, and how near any of its decisions was to going the other way, in metres.
 struct Brute {
