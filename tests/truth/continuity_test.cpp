@@ -111,6 +111,17 @@ TEST(Continuity, SlabThatLeansOverItsFootIsTwoPieces) {
   EXPECT_FALSE(continuous(scene, {-0.5, 1.0, 0.1}, {0.5, 0, 0.1}));
 }
 
+// The same where slab and floor share the edge at the foot: neighbours, folded over one another.
+TEST(Continuity, SlabFoldedOverTheFloorItJoinsIsTwoPieces) {
+  Scene scene = emptyScene();
+  addQuad(scene, {-1, 0, -5}, {-1, 0, 5}, {9, 0, 5}, {9, 0, -5});
+  addQuad(scene, {-1, 0, -5}, {-1, 0, 5}, {0, 2, 5}, {0, 2, -5});
+  for (const double z : {-2.0, 0.1, 2.0}) {
+    EXPECT_FALSE(continuous(scene, {-0.05, 1.9, z}, {0.05, 0, z}));
+    EXPECT_FALSE(continuous(scene, {-0.5, 1.0, z}, {0.5, 0, z}));
+  }
+}
+
 // Rays that pass the tip of a pyramid nearer than the last stretch is wide: the two faces hit there share no
 // edge, only the tip beside the rays. They are aimed at the tip's height, so that all lie in one plane.
 TEST(Continuity, ArcPastTheTipOfAPyramidIsOnePiece) {
