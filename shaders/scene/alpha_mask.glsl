@@ -9,17 +9,16 @@ layout(scalar, binding = kBindMaterials) readonly buffer Materials { SceneMateri
 layout(scalar, binding = kBindTextures) readonly buffer Textures { TextureInfo textures[]; };
 layout(scalar, binding = kBindTexels) readonly buffer Texels { uint texels[]; };
 
-// sRGB colour and linear alpha.
-vec4 textureAt(int textureIndex, vec2 uv) {
+float textureAlphaAt(int textureIndex, vec2 uv) {
   TextureTaps taps = textureTaps(textures[textureIndex], uv);
-  vec4 sum = vec4(0.0f);
-  for (int i = 0; i < 4; ++i) sum += unpackRgba8(texels[taps.texel[i]]) * taps.weight[i];
+  float sum = 0.0f;
+  for (int i = 0; i < 4; ++i) sum += unpackRgba8(texels[taps.texel[i]]).w * taps.weight[i];
   return sum;
 }
 
 bool isHole(SceneMaterial material, vec2 uv) {
   float alpha = material.baseColor.w;
-  if (material.texture >= 0) alpha *= textureAt(material.texture, uv).w;
+  if (material.texture >= 0) alpha *= textureAlphaAt(material.texture, uv);
   return alpha < material.alphaCutoff;
 }
 

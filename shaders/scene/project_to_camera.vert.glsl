@@ -9,9 +9,11 @@ layout(push_constant, scalar) uniform Push { mat4 clipFromWorld; };
 
 layout(location = 0) out vec2 uv;
 layout(location = 1) out flat uint instanceIndex;
+layout(location = 2) out flat uint firstTriangle;
 
 void main() {
   instanceIndex = gl_InstanceIndex;
+  firstTriangle = instances[gl_InstanceIndex].firstTriangle;
   uv = uvs[gl_VertexIndex];
   gl_Position = clipFromWorld * (instances[gl_InstanceIndex].worldFromMesh * vec4(positions[gl_VertexIndex], 1.0f));
 }

@@ -6,22 +6,25 @@
 #include "shared/scene.glsl"
 
 layout(scalar, binding = kBindPositions) readonly buffer Positions { vec3 positions[]; };
-layout(scalar, binding = kBindIndices) readonly buffer Indices { uint indices[]; };
+layout(scalar, binding = kBindTriangles) readonly buffer Triangles { uvec3 triangles[]; };
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
 
-uvec3 triangleVertices(PrimitiveId id) {
-  SceneInstance instance = instances[id.instancePlusOne - 1u];
-  uint first = instance.firstIndex + 3u * id.primitive;
-  return uvec3(indices[first], indices[first + 1u], indices[first + 2u]) + instance.vertexOffset;
-}
+// 0: every mesh stands in world space, and no matrix need be read. On a CPU device a gather from a buffer costs as much as
+// hundreds of sums, so a pixel makes four: a triangle and three corners.
+layout(constant_id = 4) const int kInstanced = 1;
 
 // In the world.
 SurfacePoint fetchSurface(CameraView camera, ivec2 pixel, PrimitiveId id) {
-  uvec3 v = triangleVertices(id);
-  mat4 worldFromMesh = instances[id.instancePlusOne - 1u].worldFromMesh;
-  vec3 a = vec3(transform(worldFromMesh, vec4(positions[v.x], 1.0f)));
-  vec3 b = vec3(transform(worldFromMesh, vec4(positions[v.y], 1.0f)));
-  vec3 c = vec3(transform(worldFromMesh, vec4(positions[v.z], 1.0f)));
+  uvec3 v = triangles[id.triangle];
+  vec3 a = positions[v.x];
+  vec3 b = positions[v.y];
+  vec3 c = positions[v.z];
+  if (kInstanced == 1) {
+    mat4 worldFromMesh = instances[id.instancePlusOne - 1u].worldFromMesh;
+    a = vec3(transform(worldFromMesh, vec4(a, 1.0f)));
+    b = vec3(transform(worldFromMesh, vec4(b, 1.0f)));
+    c = vec3(transform(worldFromMesh, vec4(c, 1.0f)));
+  }
   Ray ray;
   ray.origin = camera.eyeW;
   ray.dir = unitVector(pixelDirection(camera, pixel.x, pixel.y));

@@ -17,16 +17,24 @@ vec3 linearFromSrgb(vec3 c) {
   return mix(c * (1.0f / 12.92f), pow((c + 0.055f) * (1.0f / 1.055f), vec3(2.4f)), greaterThan(c, vec3(0.04045f)));
 }
 
+// Linear colour: each texel is decoded before it is weighted.
+vec3 textureColorAt(int textureIndex, vec2 uv) {
+  TextureTaps taps = textureTaps(textures[textureIndex], uv);
+  vec3 sum = vec3(0.0f);
+  for (int i = 0; i < 4; ++i) sum += linearFromSrgb(unpackRgba8(texels[taps.texel[i]]).xyz) * taps.weight[i];
+  return sum;
+}
+
 vec3 shadeSurface(ivec2 pixel, PrimitiveId id, float visible) {
   SurfacePoint surface = fetchSurface(shade.camera, pixel, id);
   SceneInstance instance = instances[id.instancePlusOne - 1u];
   SceneMaterial material = materials[instance.material];
-  uvec3 v = triangleVertices(id);
+  uvec3 v = triangles[id.triangle];
   vec3 b = surface.barycentric;
   vec3 albedo = material.baseColor.xyz;
   if (material.texture >= 0) {
     vec2 uv = uvs[v.x] * b.x + uvs[v.y] * b.y + uvs[v.z] * b.z;
-    albedo *= linearFromSrgb(textureAt(material.texture, uv).xyz);
+    albedo *= textureColorAt(material.texture, uv);
   }
   // Interpolated normals for looks only; shadows know the triangle's own.
   vec3 normalM = normals[v.x] * b.x + normals[v.y] * b.y + normals[v.z] * b.z;
@@ -52,7 +60,7 @@ void main() {
   uvec2 named = texelFetch(primitiveIds, pixel, 0).xy;
   PrimitiveId id;
   id.instancePlusOne = named.x;
-  id.primitive = named.y;
+  id.triangle = named.y;
   float visible = visibility[index];
   vec3 color = vec3(0.0f);
   if (id.instancePlusOne != 0u)

@@ -44,7 +44,7 @@ void main() {
   uvec2 named = texelFetch(primitiveIds, pixel, 0).xy;
   PrimitiveId id;
   id.instancePlusOne = named.x;
-  id.primitive = named.y;
+  id.triangle = named.y;
   uint flags = 0u;
   uint texelWord = 0u;
   float result = 1.0f;

@@ -9,7 +9,7 @@ GNOMON_SHARED_BEGIN
 
 // Binding numbers of the scene, the same in every shader that reads it.
 const int kBindPositions = 0;
-const int kBindIndices = 1;
+const int kBindTriangles = 1;
 const int kBindInstances = 2;
 const int kBindUvs = 3;
 const int kBindMaterials = 4;
@@ -20,10 +20,8 @@ const int kBindFirstFree = 8;  // a shader's own bindings start here
 
 struct SceneInstance {
   mat4 worldFromMesh;
-  uint firstIndex;    // of its mesh, in the index array
-  uint vertexOffset;  // added to every index
+  uint firstTriangle;  // of its mesh, in the array of triangles
   uint material;
-  uint mirrored;  // 1: the matrix turns the winding round
 };
 
 struct SceneMaterial {
@@ -34,10 +32,11 @@ struct SceneMaterial {
   int doubleSided;
 };
 
-// A pixel of the G-buffer: which triangle of which instance. The first word is 0 where nothing was drawn.
+// A pixel of the G-buffer: which triangle of which instance. The first word is 0 where nothing was drawn. On the GPU triangles
+// are counted through the whole array; what the CPU gets back (downloadPrimitiveIds) counts within the mesh.
 struct PrimitiveId {
   uint instancePlusOne;
-  uint primitive;
+  uint triangle;
 };
 
 // The camera as the shaders use it. A pixel's ray starts at the eye; pixel (0,0) is the upper left one.
@@ -63,7 +62,7 @@ GNOMON_FN vec3 pixelDirection(CameraView camera, int x, int y) {
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::SceneInstance) == 80);
+static_assert(sizeof(gnomon::glsl::SceneInstance) == 72);
 static_assert(sizeof(gnomon::glsl::SceneMaterial) == 32);
 static_assert(sizeof(gnomon::glsl::CameraView) == 128 && offsetof(gnomon::glsl::CameraView, height) == 124);
 #endif

@@ -31,6 +31,7 @@ void writePng(const std::filesystem::path& path, const Image8& image) {
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("png:compressionLevel", 4);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
   writeImage(path, spec, OIIO::TypeDesc::UINT8, image.values.data());
 }
 
@@ -57,10 +58,15 @@ ImageF readImage(const std::filesystem::path& path) {
 }
 
 Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what) {
+  // Colour stays as stored: OpenImageIO would multiply it by alpha.
   OIIO::Filesystem::IOMemReader reader(const_cast<uint8_t*>(bytes), size);
+  OIIO::Filesystem::IOProxy* proxy = &reader;
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   // The name only tells OpenImageIO which reader to try: PNG begins with 0x89, JPEG with 0xff.
   const bool isPng = size > 0 && bytes[0] == 0x89;
-  auto in = OIIO::ImageInput::open(isPng ? "memory.png" : "memory.jpg", nullptr, &reader);
+  auto in = OIIO::ImageInput::open(isPng ? "memory.png" : "memory.jpg", &config);
   if (!in) throw fileError(what, "cannot be decoded as PNG or JPEG", OIIO::geterror());
   const OIIO::ImageSpec spec = in->spec();
   if (spec.width <= 0 || spec.height <= 0 || spec.width > 16384 || spec.height > 16384)

@@ -54,7 +54,7 @@ Session::Session(const gpu::DeviceOptions& deviceOptions, const SetupOptions& op
   buffers_ = createSceneBuffers(*device_, scene_);
   gbuffer_ = std::make_unique<GBuffer>(*device_, size.width, size.height);
   timeGBuffer();
-  ids_ = gpu::downloadAs<glsl::PrimitiveId>(*device_, gbuffer_->primitiveIds());
+  ids_ = downloadPrimitiveIds(*device_, *gbuffer_, buffers_);
 }
 
 double Session::timeGBuffer() const {

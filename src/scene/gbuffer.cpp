@@ -70,7 +70,7 @@ void GBuffer::record(gpu::Commands& commands, const SceneBuffers& scene, const g
                    {glsl::kBindMaterials, scene.materials},
                    {glsl::kBindTextures, scene.textures},
                    {glsl::kBindTexels, scene.texels}});
-    commands.bindIndexBuffer(scene.indices);
+    commands.bindIndexBuffer(scene.triangles);
     commands.setCulling(VK_CULL_MODE_NONE, VK_FRONT_FACE_COUNTER_CLOCKWISE);
     recordDraws(commands, scene, [&](const Draw& draw) { return draw.masked == masked && draw.doubleSided; });
     commands.setCulling(VK_CULL_MODE_BACK_BIT, VK_FRONT_FACE_COUNTER_CLOCKWISE);
@@ -83,6 +83,14 @@ void GBuffer::record(gpu::Commands& commands, const SceneBuffers& scene, const g
     });
   }
   commands.endRendering();
+}
+
+std::vector<glsl::PrimitiveId> downloadPrimitiveIds(const gpu::Device& device, const GBuffer& gbuffer,
+                                                    const SceneBuffers& scene) {
+  auto ids = gpu::downloadAs<glsl::PrimitiveId>(device, gbuffer.primitiveIds());
+  for (glsl::PrimitiveId& id : ids)
+    if (id.instancePlusOne != 0) id.triangle -= scene.firstTriangles[id.instancePlusOne - 1];
+  return ids;
 }
 
 }  // namespace gnomon

@@ -17,7 +17,7 @@ class GBuffer {
   // Draws the scene as the camera sees it: single-sided materials from the front only, holes left open.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const glsl::CameraView& camera) const;
 
-  // R32G32_UINT, one glsl::PrimitiveId a pixel.
+  // R32G32_UINT, one glsl::PrimitiveId a pixel, triangles counted through the whole scene.
   const gpu::Image& primitiveIds() const { return ids_; }
 
  private:
@@ -26,5 +26,9 @@ class GBuffer {
   gpu::Image ids_;
   gpu::Image depth_;
 };
+
+// The picture's primitives with triangles counted within their mesh, as the truth names them.
+std::vector<glsl::PrimitiveId> downloadPrimitiveIds(const gpu::Device& device, const GBuffer& gbuffer,
+                                                    const SceneBuffers& scene);
 
 }  // namespace gnomon

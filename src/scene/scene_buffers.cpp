@@ -7,11 +7,6 @@ namespace gnomon {
 
 namespace {
 
-struct MeshRange {
-  uint32_t firstIndex = 0;
-  uint32_t vertexOffset = 0;
-};
-
 glsl::SceneMaterial toGpu(const Material& material) {
   return {.baseColor = material.baseColor,
           .alphaCutoff = material.alphaCutoff,
@@ -41,14 +36,14 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec2> uvs;
   std::vector<uint32_t> indices;
-  std::vector<MeshRange> ranges;
+  std::vector<uint32_t> firstIndices;  // one a mesh
   for (const Mesh& mesh : scene.meshes) {
-    ranges.push_back({.firstIndex = static_cast<uint32_t>(indices.size()),
-                      .vertexOffset = static_cast<uint32_t>(positions.size())});
+    firstIndices.push_back(static_cast<uint32_t>(indices.size()));
+    const auto firstVertex = static_cast<uint32_t>(positions.size());
+    for (const uint32_t index : mesh.indices) indices.push_back(firstVertex + index);
     append(positions, mesh.positions);
     append(normals, mesh.normals);
     append(uvs, mesh.uvs);
-    append(indices, mesh.indices);
   }
 
   SceneBuffers buffers;
@@ -56,11 +51,10 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     const Material& material = scene.materials[mesh.material];
-    const MeshRange& range = ranges[instance.mesh];
+    const uint32_t firstIndex = firstIndices[instance.mesh];
     const bool mirrored = glm::determinant(glm::mat3(instance.worldFromMesh)) < 0.0f;
     buffers.draws.push_back({.indexCount = static_cast<uint32_t>(mesh.indices.size()),
-                             .firstIndex = range.firstIndex,
-                             .vertexOffset = static_cast<int32_t>(range.vertexOffset),
+                             .firstIndex = firstIndex,
                              .instance = static_cast<uint32_t>(instances.size()),
                              .masked = material.alphaMode == AlphaMode::Mask,
                              .doubleSided = material.doubleSided,
@@ -68,10 +62,10 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
                              .mirrored = mirrored,
                              .boundsW = instanceBounds(mesh, instance.worldFromMesh)});
     instances.push_back({.worldFromMesh = instance.worldFromMesh,
-                         .firstIndex = range.firstIndex,
-                         .vertexOffset = range.vertexOffset,
-                         .material = static_cast<uint32_t>(mesh.material),
-                         .mirrored = mirrored ? 1u : 0u});
+                         .firstTriangle = firstIndex / 3,
+                         .material = static_cast<uint32_t>(mesh.material)});
+    buffers.firstTriangles.push_back(firstIndex / 3);
+    buffers.instanced = buffers.instanced || instance.worldFromMesh != glm::mat4(1.0f);
   }
   std::ranges::stable_sort(buffers.draws, {}, &Draw::masked);
 
@@ -81,7 +75,7 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
   buffers.positions = gpu::createBufferWith(device, "positions", positions);
   buffers.normals = gpu::createBufferWith(device, "normals", normals);
   buffers.uvs = gpu::createBufferWith(device, "uvs", uvs);
-  buffers.indices = gpu::createBufferWith(device, "indices", indices,
+  buffers.triangles = gpu::createBufferWith(device, "triangles", indices,
                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   buffers.instances = gpu::createBufferWith(device, "instances", instances);
   buffers.materials = gpu::createBufferWith(device, "materials", materials);

@@ -14,7 +14,6 @@ namespace gnomon {
 struct Draw {
   uint32_t indexCount = 0;
   uint32_t firstIndex = 0;
-  int32_t vertexOffset = 0;
   uint32_t instance = 0;
   bool masked = false;       // needs the alpha test
   bool doubleSided = false;  // the camera sees both sides
@@ -24,8 +23,10 @@ struct Draw {
 };
 
 struct SceneBuffers {
-  gpu::Buffer positions, indices, instances, uvs, materials, textures, texels, normals;
-  std::vector<Draw> draws;  // opaque first
+  gpu::Buffer positions, triangles, instances, uvs, materials, textures, texels, normals;
+  std::vector<Draw> draws;                // opaque first
+  std::vector<uint32_t> firstTriangles;  // one an instance, in the array of triangles
+  bool instanced = false;                 // some matrix is not the identity
 };
 
 SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene);
@@ -35,7 +36,7 @@ template <typename Predicate>
 void recordDraws(gpu::Commands& commands, const SceneBuffers& scene, Predicate wanted) {
   for (const Draw& draw : scene.draws)
     if (wanted(draw))
-      commands.drawIndexed(draw.indexCount, 1, draw.firstIndex, draw.vertexOffset, draw.instance);
+      commands.drawIndexed(draw.indexCount, 1, draw.firstIndex, 0, draw.instance);
 }
 
 }  // namespace gnomon

@@ -57,7 +57,7 @@ void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, con
     return cull == CullMode::Solids && draw.solid && !holdsLight(draw, light);
   };
   const auto drawGroup = [&](bool masked) {
-    commands.bindIndexBuffer(scene.indices);
+    commands.bindIndexBuffer(scene.triangles);
     commands.setCulling(VK_CULL_MODE_NONE, VK_FRONT_FACE_COUNTER_CLOCKWISE);
     recordDraws(commands, scene, [&](const Draw& d) { return d.masked == masked && !culled(d); });
     for (const bool mirrored : {false, true}) {

@@ -52,15 +52,16 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
                                        {{.id = 0, .value = key.method},
                                         {.id = 1, .value = key.diagnose},
                                         {.id = 2, .value = key.mapKind},
-                                        {.id = 3, .value = key.layerCount}})}));
+                                        {.id = 3, .value = key.layerCount},
+                                        {.id = 4, .value = key.instanced}})}));
   return variants_.back()->program;
 }
 
 void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                             const MapImage& map, int method, bool diagnose) {
-  commands.dispatch(program({method, diagnose ? 1 : 0, map.kind(), map.layerCount()}), groupCount_, {},
+  commands.dispatch(program({method, diagnose ? 1 : 0, map.kind(), map.layerCount(), scene.instanced ? 1 : 0}), groupCount_, {},
                     {{glsl::kBindPositions, scene.positions},
-                     {glsl::kBindIndices, scene.indices},
+                     {glsl::kBindTriangles, scene.triangles},
                      {glsl::kBindInstances, scene.instances},
                      {glsl::kBindMap, map.uniforms()},
                      {glsl::kBindMapDepth, map.depth()},
@@ -79,7 +80,7 @@ void RadiancePass::record(gpu::Commands& commands, const SceneBuffers& scene, co
                           const gpu::Buffer& shadeUniforms, const gpu::Buffer& visibility) const {
   commands.dispatch(program_, groupCount_, {},
                     {{glsl::kBindPositions, scene.positions},
-                     {glsl::kBindIndices, scene.indices},
+                     {glsl::kBindTriangles, scene.triangles},
                      {glsl::kBindInstances, scene.instances},
                      {glsl::kBindUvs, scene.uvs},
                      {glsl::kBindNormals, scene.normals},

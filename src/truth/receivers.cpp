@@ -59,7 +59,7 @@ Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera,
           static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x);
       if (ids[pixel].instancePlusOne == 0) continue;
       SurfaceSample& sample = receivers.samples[pixel];
-      sample.primitive = {ids[pixel].instancePlusOne - 1, ids[pixel].primitive};
+      sample.primitive = {ids[pixel].instancePlusOne - 1, ids[pixel].triangle};
       glm::dvec3 corners[3];
       tracer.corners(sample.primitive, corners);
       const RayD ray = pixelRay(camera, x, y);

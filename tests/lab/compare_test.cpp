@@ -52,7 +52,8 @@ void dropTimes(Json& json) {
     for (auto it = json.begin(); it != json.end();)
       it = it.key().ends_with("_ms") ? json.erase(it) : std::next(it);
   }
-  for (Json& child : json) dropTimes(child);
+  if (json.is_structured())
+    for (Json& child : json) dropTimes(child);
 }
 
 TEST(Compare, TheSameCommandGivesTheSameBytes) {

@@ -74,7 +74,7 @@ Rendered render(const gpu::Device& device, const std::string& sceneName, const P
   }
   r.light = lightFor(r.scene, map);
   r.receivers = computeReceivers(*r.tracer, r.view, r.light,
-                                 gpu::downloadAs<glsl::PrimitiveId>(device, r.gbuffer->primitiveIds()));
+                                 downloadPrimitiveIds(device, *r.gbuffer, r.buffers));
   std::vector<glm::dvec3> scored;
   for (size_t i = 0; i < r.receivers.states.size(); ++i)
     if (r.receivers.states[i] == PixelState::Scored) scored.push_back(r.receivers.samples[i].positionW);

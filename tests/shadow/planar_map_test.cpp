@@ -72,7 +72,9 @@ TEST_P(PlanarMap, WhatLiesOutsideTheWindowIsNotCovered) {
     const Ray edge = mapTexelRay(fitted_.map, 0, vec2(1.01f, sample.uv.y));
     EXPECT_FALSE(mapProject(fitted_.map, edge.origin + edge.dir).covered);
   }
-  if (GetParam()) EXPECT_FALSE(mapProject(fitted_.map, vec3(0, 0, 1)).covered);  // behind the light
+  if (GetParam()) {  // behind the light
+    EXPECT_FALSE(mapProject(fitted_.map, vec3(0, 0, 1)).covered);
+  }
 }
 
 // Equation 10 of Dou et al. 2014, with the light's axis as the ray: eps / (sceneScale K) = f' there.

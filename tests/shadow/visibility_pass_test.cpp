@@ -3,6 +3,7 @@
 #include "map_fixture.h"
 #include "truth/labels.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace gnomon {
@@ -86,13 +87,17 @@ TEST_F(VisibilityPassTest, LabelsAddUpToTheScoredPixelsOnEveryScene) {
   }
 }
 
-// Nothing but the floor and two walls, lit from inside the corner: no shadow, so whatever is dark is acne or, at no place, edge.
-TEST_F(VisibilityPassTest, TheConcaveCornerHasNoEdges) {
-  const test::Rendered r = test::render(device(), "corner", spotParameterization(), 256, 32, CullMode::Solids);
-  const Scored result = score(r, glsl::kBiasAdaptive);
-  EXPECT_EQ(result.labels.count(Label::EdgeShadow), 0u);
-  EXPECT_EQ(result.labels.count(Label::EdgeLight), 0u);
-  EXPECT_GT(result.labels.count(Label::Acne), 0u);
+// Nothing but the floor and two walls, lit from inside the corner: whatever is dark is acne, at the creases, and never an edge.
+TEST_F(VisibilityPassTest, TheConcaveCornerHasAcneAndNoEdges) {
+  size_t acne = 0;
+  for (const int mapSide : {24, 29, 37}) {
+    const test::Rendered r = test::render(device(), "corner", spotParameterization(), 256, mapSide, CullMode::Solids);
+    const Scored result = score(r, glsl::kBiasAdaptive);
+    EXPECT_EQ(result.labels.count(Label::EdgeShadow), 0u) << mapSide;
+    EXPECT_EQ(result.labels.count(Label::EdgeLight), 0u) << mapSide;
+    acne += result.labels.count(Label::Acne);
+  }
+  EXPECT_GT(acne, 0u);
 }
 
 TEST_F(VisibilityPassTest, AnUnknownMethodIsMarkedForMagenta) {
