@@ -9,8 +9,9 @@ layout(scalar, binding = kBindPositions) readonly buffer Positions { vec3 positi
 layout(scalar, binding = kBindTriangles) readonly buffer Triangles { uvec3 triangles[]; };
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
 
-// 0: every mesh stands in world space, and no matrix need be read. On a CPU device a gather from a buffer costs as much as
-// hundreds of sums, so a pixel makes four: a triangle and three corners.
+// 0: every mesh stands in world space, and no matrix need be read. On lavapipe a gather from a storage buffer runs lane by
+// lane (measured: the matrix and its struct's other fields were 40% of the visibility pass), so a pixel makes four: a
+// triangle and three corners.
 layout(constant_id = 4) const int kInstanced = 1;
 
 // In the world.

@@ -9,7 +9,7 @@ layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
 layout(scalar, binding = kBindNormals) readonly buffer Normals { vec3 normals[]; };
 layout(binding = kBindPrimitiveIds) uniform utexture2D primitiveIds;
-layout(scalar, binding = kBindShade) readonly buffer Shade { ShadeUniforms shade; };
+layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindVisibility) readonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindRadiance) writeonly buffer Radiance { vec3 radiance[]; };
 

@@ -16,7 +16,7 @@ layout(constant_id = 3) const int kLayerCount = 1;
 
 layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
 layout(binding = kBindPrimitiveIds) uniform utexture2D primitiveIds;
-layout(scalar, binding = kBindShade) readonly buffer Shade { ShadeUniforms shade; };
+layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagnosis diagnosis[]; };
 

@@ -18,18 +18,18 @@ std::string showBoth(const A& a, const B& b) {
 
 }  // namespace gnomon::detail
 
-#define GNOMON_CHECK(condition)                                                        \
-  do {                                                                                 \
+#define GNOMON_CHECK(condition)                                                          \
+  do {                                                                                   \
     if (!(condition)) ::gnomon::detail::checkFailed(__FILE__, __LINE__, #condition, ""); \
   } while (false)
 
-#define GNOMON_CHECK_OP(op, a, b)                                                               \
-  do {                                                                                          \
-    const auto& gnomonA = (a);                                                                  \
-    const auto& gnomonB = (b);                                                                  \
-    if (!(gnomonA op gnomonB))                                                                  \
-      ::gnomon::detail::checkFailed(__FILE__, __LINE__, #a " " #op " " #b,                      \
-                                    ::gnomon::detail::showBoth(gnomonA, gnomonB));              \
+#define GNOMON_CHECK_OP(op, a, b)                                                  \
+  do {                                                                             \
+    const auto& gnomonA = (a);                                                     \
+    const auto& gnomonB = (b);                                                     \
+    if (!(gnomonA op gnomonB))                                                     \
+      ::gnomon::detail::checkFailed(__FILE__, __LINE__, #a " " #op " " #b,         \
+                                    ::gnomon::detail::showBoth(gnomonA, gnomonB)); \
   } while (false)
 
 #define GNOMON_CHECK_EQ(a, b) GNOMON_CHECK_OP(==, a, b)

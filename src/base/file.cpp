@@ -48,7 +48,8 @@ void writeTextFile(const fs::path& path, std::string_view text) {
     std::ofstream out(aside, std::ios::binary);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.close();
-    if (!out) throw fileError(path.string(), "cannot be written", "check that the folder exists and has room");
+    if (!out)
+      throw fileError(path.string(), "cannot be written", "check that the folder exists and has room");
   });
 }
 

@@ -35,7 +35,8 @@ void writePng(const std::filesystem::path& path, const Image8& image) {
   writeImage(path, spec, OIIO::TypeDesc::UINT8, image.values.data());
 }
 
-void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames) {
+void writeExr(const std::filesystem::path& path, const ImageF& image,
+              const std::vector<std::string>& channelNames) {
   GNOMON_CHECK_EQ(image.channels, static_cast<int>(channelNames.size()));
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   spec.channelnames = channelNames;
@@ -70,7 +71,8 @@ Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what) {
   if (!in) throw fileError(what, "cannot be decoded as PNG or JPEG", OIIO::geterror());
   const OIIO::ImageSpec spec = in->spec();
   if (spec.width <= 0 || spec.height <= 0 || spec.width > 16384 || spec.height > 16384)
-    throw fileError(what, fmt::format("has {} x {} pixels", spec.width, spec.height), "at most 16384 x 16384 are read");
+    throw fileError(what, fmt::format("has {} x {} pixels", spec.width, spec.height),
+                    "at most 16384 x 16384 are read");
   std::vector<uint8_t> raw(static_cast<size_t>(spec.width) * spec.height * spec.nchannels);
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data()))
     throw fileError(what, "cannot be decoded", in->geterror());

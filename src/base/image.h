@@ -33,12 +33,14 @@ using ImageF = Image<float>;
 void writePng(const std::filesystem::path& path, const Image8& image);
 
 // Any number of channels, 32-bit float, names such as {"Y"} or {"R","G","B"}. Throws WorldError.
-void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames);
+void writeExr(const std::filesystem::path& path, const ImageF& image,
+              const std::vector<std::string>& channelNames);
 
 // Any file OpenImageIO reads, as float (8-bit files give [0,1], not linearized). Throws WorldError.
 ImageF readImage(const std::filesystem::path& path);
 
-// Decodes an image held in memory (PNG, JPEG) to RGBA8; sRGB values stay sRGB. Throws WorldError that names `what`.
+// Decodes an image held in memory (PNG, JPEG) to RGBA8; sRGB values stay sRGB. Throws WorldError that names
+// `what`.
 Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what);
 
 // IEC 61966-2-1.

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 namespace gnomon {
 
@@ -18,8 +18,9 @@ namespace {
 std::string typedCommand;
 
 std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                                             "_-+=.,:/%@") == std::string::npos;
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                          "_-+=.,:/%@") == std::string::npos;
   if (plain) return word;
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -55,26 +56,34 @@ std::string commandLine() {
 
 void addSceneFlags(CLI::App& verb, SceneFlags& flags) {
   SetupOptions& setup = flags.setup;
-  verb.add_option("SCENE", setup.scene, "a glTF file (.gltf, .glb), or a generated scene: `gnomon scene` lists them")->required();
+  verb.add_option("SCENE", setup.scene,
+                  "a glTF file (.gltf, .glb), or a generated scene: `gnomon scene` lists them")
+      ->required();
   verb.add_option("--light", setup.light,
-                  "NAME of a light of the scene, or x,y,z in metres; default: the scene's first light that the map can take, else one "
+                  "NAME of a light of the scene, or x,y,z in metres; default: the scene's first light that "
+                  "the map can take, else one "
                   "above its centre (under the roof, where there is one)");
   verb.add_option("--camera", setup.camera,
-                  "NAME of a camera of the scene, or eye:x,y,z,target:x,y,z[,fov:degrees] (vertical); default: the scene's first "
+                  "NAME of a camera of the scene, or eye:x,y,z,target:x,y,z[,fov:degrees] (vertical); "
+                  "default: the scene's first "
                   "camera, else one that sees the scene");
   verb.add_option("--direction", setup.direction,
-                  "x,y,z: the way the light shines, for spot and directional maps; default: the light's own (spot, directional), "
+                  "x,y,z: the way the light shines, for spot and directional maps; default: the light's own "
+                  "(spot, directional), "
                   "else (a point light) the mean direction of the surfaces in the picture that it lights");
   verb.add_option("--cone", setup.coneDegrees,
-                  "full angle of the spot's cone, degrees; default: the light's own (spot), else 120. Pixels outside are dark and "
+                  "full angle of the spot's cone, degrees; default: the light's own (spot), else 120. Pixels "
+                  "outside are dark and "
                   "not scored");
   verb.add_option("--size", setup.size, "picture size: N or WxH, pixels")->capture_default_str();
-  verb.add_option("--device", flags.device,
-                  "part of a Vulkan device's name; default: a GPU where there is one, else the CPU device (lavapipe)");
+  verb.add_option(
+      "--device", flags.device,
+      "part of a Vulkan device's name; default: a GPU where there is one, else the CPU device (lavapipe)");
   verb.add_option_function<std::string>(
       "--shader-dir", [](const std::string& folder) { gpu::setShaderDirectory(folder); },
       "read shaders from this folder instead of those built in, to edit them live");
-  verb.add_flag_callback("--quiet", [] { Progress::setQuiet(true); }, "no progress on the terminal");
+  verb.add_flag_callback(
+      "--quiet", [] { Progress::setQuiet(true); }, "no progress on the terminal");
 }
 
 Session openSession(const SceneFlags& flags) {
@@ -87,21 +96,28 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
   std::string maps, biases;
   for (const Parameterization* map : parameterizations())
     maps += fmt::format("{}{} ({})", maps.empty() ? "" : ", ", map->name(), map->sentence());
-  for (const BiasMethod& method : biasMethods()) biases += fmt::format("{}{}", biases.empty() ? "" : ", ", method.name);
+  for (const BiasMethod& method : biasMethods())
+    biases += fmt::format("{}{}", biases.empty() ? "" : ", ", method.name);
   verb.add_option("--maps", flags.maps, "comma-separated: " + maps)->capture_default_str();
-  verb.add_option("--biases", flags.biases, fmt::format("comma-separated, or all: {}", biases))->capture_default_str();
-  CLI::Option* side = verb.add_option("--map-size", flags.mapSize, "side of a map's layer, texels")->capture_default_str();
-  verb.add_option("--map-texels", flags.mapTexels,
-                  "texels of all layers together; picks the side, so that maps of different layer counts compare fairly")
-      ->excludes(side);
-  verb.add_option("--cull", flags.cull, "solids: closed one-sided meshes cast by their lit faces only; none: everything casts")
+  verb.add_option("--biases", flags.biases, fmt::format("comma-separated, or all: {}", biases))
       ->capture_default_str();
-  verb.add_option("--epsilon-at", flags.epsilonAt, "where adaptive takes its epsilon: fragment, occluder or stored")
+  CLI::Option* side =
+      verb.add_option("--map-size", flags.mapSize, "side of a map's layer, texels")->capture_default_str();
+  verb.add_option("--map-texels", flags.mapTexels,
+                  "texels of all layers together; picks the side, so that maps of different layer counts "
+                  "compare fairly")
+      ->excludes(side);
+  verb.add_option("--cull", flags.cull,
+                  "solids: closed one-sided meshes cast by their lit faces only; none: everything casts")
+      ->capture_default_str();
+  verb.add_option("--epsilon-at", flags.epsilonAt,
+                  "where adaptive takes its epsilon: fragment, occluder or stored")
       ->capture_default_str();
   for (const BiasMethod& method : biasMethods())
     for (const BiasKnob& knob : method.knobs)
       verb.add_option_function<float>(
-          knobFlag(method, knob), [&flags, flag = knobFlag(method, knob)](float value) { flags.knobs[flag] = value; },
+          knobFlag(method, knob),
+          [&flags, flag = knobFlag(method, knob)](float value) { flags.knobs[flag] = value; },
           knobHelp(method, knob));
 }
 
@@ -113,19 +129,22 @@ CompareOptions compareOptions(const MethodFlags& flags) {
   options.epsilonAt = parseEpsilonAt(flags.epsilonAt);
   options.mapSide = flags.mapSize;
   if (flags.mapTexels != 0) {
-    if (flags.mapTexels < 1) throw UsageError(fmt::format("--map-texels {}: must be positive", flags.mapTexels));
-    options.mapSide = static_cast<int>(std::lround(std::sqrt(static_cast<double>(flags.mapTexels) / layersOf(options.maps))));
+    if (flags.mapTexels < 1)
+      throw UsageError(fmt::format("--map-texels {}: must be positive", flags.mapTexels));
+    options.mapSide = static_cast<int>(
+        std::lround(std::sqrt(static_cast<double>(flags.mapTexels) / layersOf(options.maps))));
   }
   if (options.mapSide < 2 || options.mapSide > 16384)
-    throw UsageError(fmt::format("a map's side of {} texels is outside 2..16384; choose another --map-size or --map-texels",
-                                 options.mapSide));
+    throw UsageError(fmt::format(
+        "a map's side of {} texels is outside 2..16384; choose another --map-size or --map-texels",
+        options.mapSide));
   for (const BiasMethod& method : biasMethods()) {
     for (const BiasKnob& knob : method.knobs) {
       const auto found = flags.knobs.find(knobFlag(method, knob));
       if (found == flags.knobs.end()) continue;
       if (!(found->second >= knob.lower && found->second <= knob.upper))
-        throw UsageError(fmt::format("{} {:g} is outside {:g}..{:g} {}", found->first, found->second, knob.lower, knob.upper,
-                                     unitName(knob.unit)));
+        throw UsageError(fmt::format("{} {:g} is outside {:g}..{:g} {}", found->first, found->second,
+                                     knob.lower, knob.upper, unitName(knob.unit)));
       options.knobs.push_back({&knob, found->second});
     }
   }

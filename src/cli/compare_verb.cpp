@@ -39,7 +39,8 @@ int runCompare(const CompareFlags& flags) {
 
   std::fputs(comparisonHeader(session, comparison).c_str(), stdout);
   std::fputs(comparisonTable(comparison).c_str(), stdout);
-  if (!flags.out.empty()) std::printf("wrote %s/results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
+  if (!flags.out.empty())
+    std::printf("wrote %s/results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
   for (const Threshold& threshold : thresholds) {
     if (const std::optional<std::string> line = crossed(threshold, comparison.rows)) {
       std::fprintf(stderr, "gnomon: %s\n", line->c_str());
@@ -53,13 +54,15 @@ int runCompare(const CompareFlags& flags) {
 
 Run addCompareVerb(CLI::App& app) {
   auto flags = std::make_shared<CompareFlags>();
-  CLI::App* verb = app.add_subcommand("compare", "every chosen map x bias against the exact shadow: table, pictures, results.json");
+  CLI::App* verb = app.add_subcommand(
+      "compare", "every chosen map x bias against the exact shadow: table, pictures, results.json");
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "all");
   verb->add_option("-o,--out", flags->out, "folder for pictures and results.json; none: the table only");
   verb->add_option("--json", flags->json, "write results.json here");
-  verb->add_option("--fail-if", flags->failIf,
-                   "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; may be repeated");
+  verb->add_option(
+      "--fail-if", flags->failIf,
+      "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; may be repeated");
   verb->add_option("--repeats", flags->repeats, "of every timed stage; medians are told")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

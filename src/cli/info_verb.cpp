@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 namespace gnomon {
 
@@ -18,18 +18,22 @@ namespace {
 void printDevices() {
   const std::vector<gpu::DeviceInfo> devices = gpu::listDevices();
   fmt::print("gnomon {}\n", gnomonVersion());
-  if (devices.empty()) fmt::print("no Vulkan device; install one with: apt-get install mesa-vulkan-drivers\n");
+  if (devices.empty())
+    fmt::print("no Vulkan device; install one with: apt-get install mesa-vulkan-drivers\n");
   for (const gpu::DeviceInfo& device : devices) {
-    fmt::print("device {}\n  {}, Vulkan {}, {}\n", device.name, device.isCpu ? "CPU" : "GPU", device.apiVersion, device.driver);
+    fmt::print("device {}\n  {}, Vulkan {}, {}\n", device.name, device.isCpu ? "CPU" : "GPU",
+               device.apiVersion, device.driver);
     fmt::print("  images to {} texels a side, storage buffers to {} MiB, ordered attachment access: {}\n",
-               device.maxImageDimension2D, device.maxStorageBufferBytes >> 20, device.orderedAttachmentAccess ? "yes" : "no");
+               device.maxImageDimension2D, device.maxStorageBufferBytes >> 20,
+               device.orderedAttachmentAccess ? "yes" : "no");
   }
   fmt::print("shader cache {}\n", gpu::cacheDirectory().empty() ? "off" : gpu::cacheDirectory().string());
 }
 
 const char* castsAs(const Scene& scene, const Mesh& mesh) {
   if (isSolid(scene, mesh)) return "solid";
-  if (scene.materials[mesh.material].doubleSided) return mesh.closed ? "sheet (closed, but doubleSided)" : "sheet";
+  if (scene.materials[mesh.material].doubleSided)
+    return mesh.closed ? "sheet (closed, but doubleSided)" : "sheet";
   return "open (one-sided, but not closed: never culled)";
 }
 
@@ -39,8 +43,8 @@ std::string lightText(const Light& light) {
     case LightType::Point:
       return fmt::format("point at {}, {:g} cd", text(light.positionW), light.intensity);
     case LightType::Spot:
-      return fmt::format("spot at {} towards {}, cone {:.4g} degrees, {:g} cd", text(light.positionW), text(light.directionW),
-                         2.0f * glm::degrees(light.outerConeRad), light.intensity);
+      return fmt::format("spot at {} towards {}, cone {:.4g} degrees, {:g} cd", text(light.positionW),
+                         text(light.directionW), 2.0f * glm::degrees(light.outerConeRad), light.intensity);
     case LightType::Directional:
       return fmt::format("directional towards {}, {:g} lx", text(light.directionW), light.intensity);
   }
@@ -50,10 +54,12 @@ std::string lightText(const Light& light) {
 void printScene(const std::string& name) {
   const Scene scene = openScene(name);
   const Bounds bounds = computeBounds(scene);
-  fmt::print("{}: {} triangles, {} meshes, {} instances, {} materials, {} textures\n", scene.name, triangleCount(scene),
-             scene.meshes.size(), scene.instances.size(), scene.materials.size(), scene.textures.size());
-  fmt::print("bounds {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g} m, diagonal {:.4g} m\n", bounds.lower.x, bounds.lower.y,
-             bounds.lower.z, bounds.upper.x, bounds.upper.y, bounds.upper.z, bounds.diagonal());
+  fmt::print("{}: {} triangles, {} meshes, {} instances, {} materials, {} textures\n", scene.name,
+             triangleCount(scene), scene.meshes.size(), scene.instances.size(), scene.materials.size(),
+             scene.textures.size());
+  fmt::print("bounds {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g} m, diagonal {:.4g} m\n", bounds.lower.x,
+             bounds.lower.y, bounds.lower.z, bounds.upper.x, bounds.upper.y, bounds.upper.z,
+             bounds.diagonal());
   for (const Mesh& mesh : scene.meshes) {
     const Material& material = scene.materials[mesh.material];
     fmt::print("mesh '{}': {} triangles, {}{}\n", mesh.name, mesh.indices.size() / 3, castsAs(scene, mesh),
@@ -71,11 +77,14 @@ void printScene(const std::string& name) {
 
 Run addInfoVerb(CLI::App& app) {
   auto scene = std::make_shared<std::string>();
-  CLI::App* verb = app.add_subcommand("info", "devices, driver, versions, limits; of a scene: meshes, solids, sheets, lights, cameras");
+  CLI::App* verb = app.add_subcommand(
+      "info", "devices, driver, versions, limits; of a scene: meshes, solids, sheets, lights, cameras");
   verb->add_option("SCENE", *scene, "a glTF file or a generated scene");
   return [scene] {
-    if (scene->empty()) printDevices();
-    else printScene(*scene);
+    if (scene->empty())
+      printDevices();
+    else
+      printScene(*scene);
     return 0;
   };
 }

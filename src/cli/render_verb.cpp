@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 namespace gnomon {
 
@@ -51,12 +51,16 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
   }
   const Judged judged = judge(session, passes, map, exact, bias.id, biasParams(session, options));
   if (show == "visibility")
-    return {visibilityPicture(exact.receivers, judged.visibility), oneChannel(session, judged.visibility), {"Y"}};
+    return {
+        visibilityPicture(exact.receivers, judged.visibility), oneChannel(session, judged.visibility), {"Y"}};
   if (show == "labels") {
-    const std::string title = fmt::format("{} {}, {} x {} texels", parameterization.name(), bias.name, options.mapSide, options.mapSide);
+    const std::string title = fmt::format("{} {}, {} x {} texels", parameterization.name(), bias.name,
+                                          options.mapSide, options.mapSide);
     std::vector<float> numbers;
     for (const Label label : judged.labels.labels) numbers.push_back(static_cast<float>(label));
-    return {labelPicture(exact.receivers, exact.truth, judged.labels, title), oneChannel(session, numbers), {"label"}};
+    return {labelPicture(exact.receivers, exact.truth, judged.labels, title),
+            oneChannel(session, numbers),
+            {"label"}};
   }
   const ImageF radiance = renderRadiance(session, passes, exact, judged.visibility);
   return {toSrgb8(radiance), radiance, {"R", "G", "B"}};
@@ -71,8 +75,10 @@ int runRender(const RenderFlags& flags) {
     throw UsageError("render draws one configuration: give one --maps and one --biases");
   const Session session = openSession(flags.scene);
   const Picture picture = renderPicture(session, options, flags.show);
-  if (extension == ".exr") writeExr(flags.out, picture.exr, picture.channels);
-  else writePng(flags.out, picture.png);
+  if (extension == ".exr")
+    writeExr(flags.out, picture.exr, picture.channels);
+  else
+    writePng(flags.out, picture.png);
   std::printf("wrote %s\n", flags.out.c_str());
   return 0;
 }
@@ -84,7 +90,8 @@ Run addRenderVerb(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("render", "one picture of one configuration, PNG or EXR");
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "adaptive");
-  verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")->required();
+  verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")
+      ->required();
   verb->add_option("--show", flags->show, "beauty, visibility, truth, labels or depth")
       ->check(CLI::IsMember(std::vector<std::string>(kShows.begin(), kShows.end())))
       ->capture_default_str();

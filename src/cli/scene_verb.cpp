@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 namespace gnomon {
 
@@ -25,11 +25,14 @@ int listScenes() {
 
 int runScene(const SceneVerbFlags& flags) {
   if (flags.name.empty()) return listScenes();
-  if (flags.out.empty()) throw UsageError(fmt::format("scene {}: say where to write it, with -o FILE.glb", flags.name));
-  if (std::filesystem::path(flags.out).extension() != ".glb") throw UsageError(fmt::format("-o {}: write a .glb", flags.out));
+  if (flags.out.empty())
+    throw UsageError(fmt::format("scene {}: say where to write it, with -o FILE.glb", flags.name));
+  if (std::filesystem::path(flags.out).extension() != ".glb")
+    throw UsageError(fmt::format("-o {}: write a .glb", flags.out));
   const Scene scene = openScene(flags.name);
   saveGlb(scene, flags.out);
-  std::printf("wrote %s: %llu triangles\n", flags.out.c_str(), static_cast<unsigned long long>(triangleCount(scene)));
+  std::printf("wrote %s: %llu triangles\n", flags.out.c_str(),
+              static_cast<unsigned long long>(triangleCount(scene)));
   return 0;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The verbs of the program: each adds its subcommand and, when it was called, runs. What it returns is the exit code;
-// WorldError and UsageError are caught in main.
+// The verbs of the program: each adds its subcommand and, when it was called, runs. What it returns is the
+// exit code; WorldError and UsageError are caught in main.
 
 #include <functional>
 

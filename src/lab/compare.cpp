@@ -86,13 +86,14 @@ void writeMapPictures(const Session& session, Passes& passes, const Exact& exact
   writePng(folder / "truth.beauty.png", toSrgb8(renderRadiance(session, passes, exact, truth)));
 }
 
-void writeRowPictures(const Session& session, Passes& passes, const Exact& exact, const Judged& judged, Row& row,
-                      const std::filesystem::path& outDir) {
+void writeRowPictures(const Session& session, Passes& passes, const Exact& exact, const Judged& judged,
+                      Row& row, const std::filesystem::path& outDir) {
   const std::string stem = row.map + "/" + row.bias;
   const std::string title = fmt::format("{} {}, {} x {} texels", row.map, row.bias, row.mapSide, row.mapSide);
   writePng(outDir / (stem + ".labels.png"), labelPicture(exact.receivers, exact.truth, judged.labels, title));
   writePng(outDir / (stem + ".visibility.png"), visibilityPicture(exact.receivers, judged.visibility));
-  writePng(outDir / (stem + ".beauty.png"), toSrgb8(renderRadiance(session, passes, exact, judged.visibility)));
+  writePng(outDir / (stem + ".beauty.png"),
+           toSrgb8(renderRadiance(session, passes, exact, judged.visibility)));
   writeExr(outDir / (stem + ".exr"), dataImage(exact, judged), {"visibility", "truth", "label"});
   row.pictures = {stem + ".labels.png", stem + ".visibility.png", stem + ".beauty.png", stem + ".exr"};
 }
@@ -102,7 +103,8 @@ void timeRows(const Session& session, Passes& passes, const DrawnMap& map, const
               const CompareOptions& options, const glsl::BiasParams& params, std::span<Row> rows) {
   std::vector<double> build;
   std::vector<std::vector<double>> shade(rows.size());
-  for (int round = -1; round < options.repeats; ++round) {  // round -1 warms up: pipelines compile at first use
+  for (int round = -1; round < options.repeats;
+       ++round) {  // round -1 warms up: pipelines compile at first use
     const double buildMs = redrawMap(session, passes.map, map, exact, options.cull);
     if (round >= 0) build.push_back(buildMs);
     for (size_t i = 0; i < rows.size(); ++i) {
@@ -140,12 +142,16 @@ ImageF depthInMetres(const Session& session, const DrawnMap& map) {
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
         const float d = depth[(static_cast<size_t>(layer) * side + y) * side + x];
-        const glsl::Ray ray = glsl::mapTexelRay(map.fitted.map, layer, glsl::mapTexelCenter(map.fitted.map, {x, y}));
-        // The texel ray's origin is at the near end; distances are told from the light (its plane, when directional).
-        const float nearEnd = map.fitted.map.mapLayers[layer].clipFromLight[2][3] != 0.0f ? glm::length(ray.origin)
-                                                                                       : map.fitted.zNear;
-        *metres.at(layer * side + x, y) = d >= 1.0f ? std::numeric_limits<float>::infinity()
-                                                    : nearEnd + glsl::mapDistance(map.fitted.map, layer, ray, d);
+        const glsl::Ray ray =
+            glsl::mapTexelRay(map.fitted.map, layer, glsl::mapTexelCenter(map.fitted.map, {x, y}));
+        // The texel ray's origin is at the near end; distances are told from the light (its plane, when
+        // directional).
+        const float nearEnd = map.fitted.map.mapLayers[layer].clipFromLight[2][3] != 0.0f
+                                  ? glm::length(ray.origin)
+                                  : map.fitted.zNear;
+        *metres.at(layer * side + x, y) = d >= 1.0f
+                                              ? std::numeric_limits<float>::infinity()
+                                              : nearEnd + glsl::mapDistance(map.fitted.map, layer, ray, d);
       }
     }
   }
@@ -169,7 +175,8 @@ Comparison compare(const Session& session, const CompareOptions& options) {
     summary.receiversAndTraceMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 
     progress.step(fmt::format("{}: map", parameterization->name()));
-    const DrawnMap map = drawMap(session, passes.map, *parameterization, exact, options.mapSide, options.cull);
+    const DrawnMap map =
+        drawMap(session, passes.map, *parameterization, exact, options.mapSide, options.cull);
     summary.zNear = map.fitted.zNear;
     summary.zFar = map.fitted.zFar;
     summary.fitMs = map.fitMs;

@@ -41,8 +41,8 @@ struct Row {
   size_t grazing = 0;
   double buildMs = 0.0, shadeMs = 0.0;  // medians, wall clock
   double biasError() const { return static_cast<double>(acne + leak) / static_cast<double>(scored); }
-  // Of the binary visibility against the truth: the square root of the share of wrong pixels. A pixel that the map does not
-  // cover counts as predicted lit.
+  // Of the binary visibility against the truth: the square root of the share of wrong pixels. A pixel that
+  // the map does not cover counts as predicted lit.
   double rmse = 0.0;
   std::vector<std::string> pictures;  // below outDir
 };
@@ -54,7 +54,7 @@ struct TruthSummary {
   LightModel light;
   size_t scored = 0, facingAway = 0, outsideCone = 0, lit = 0;
   size_t marginFlipsHalf = 0, marginFlipsDouble = 0;
-  double margin = 0.0;  // metres
+  double margin = 0.0;              // metres
   float zNear = 0.0f, zFar = 0.0f;  // of the fitted map, metres
   double receiversAndTraceMs = 0.0, fitMs = 0.0;
 };
@@ -71,7 +71,8 @@ Comparison compare(const Session& session, const CompareOptions& options);
 // Bias parameters of a session under these options.
 glsl::BiasParams biasParams(const Session& session, const CompareOptions& options);
 
-// Metres along each texel's ray to what the map stores; infinity where it stores nothing. Layers side by side.
+// Metres along each texel's ray to what the map stores; infinity where it stores nothing. Layers side by
+// side.
 ImageF depthInMetres(const Session& session, const DrawnMap& map);
 
 double median(std::vector<double> values);

@@ -19,21 +19,28 @@ namespace gnomon {
 
 namespace {
 
-constexpr glm::u8vec3 kNothing(16, 20, 38);       // no surface
-constexpr glm::u8vec3 kDark(44, 46, 52);          // faces away or outside the cone
+constexpr glm::u8vec3 kNothing(16, 20, 38);  // no surface
+constexpr glm::u8vec3 kDark(44, 46, 52);     // faces away or outside the cone
 constexpr glm::u8vec3 kAgreeLit(222, 222, 222);
 constexpr glm::u8vec3 kAgreeShadow(112, 112, 112);
 constexpr glm::u8vec3 kText(235, 235, 235);
 
 glm::u8vec3 labelColor(Label label) {
   switch (label) {
-    case Label::NotScored: return kDark;
-    case Label::Agree: return kAgreeLit;
-    case Label::Acne: return {213, 94, 0};          // vermillion
-    case Label::Leak: return {0, 114, 178};         // blue
-    case Label::EdgeShadow: return {240, 228, 66};  // yellow
-    case Label::EdgeLight: return {86, 180, 233};   // sky blue
-    case Label::Uncovered: return {204, 121, 167};  // reddish purple
+    case Label::NotScored:
+      return kDark;
+    case Label::Agree:
+      return kAgreeLit;
+    case Label::Acne:
+      return {213, 94, 0};  // vermillion
+    case Label::Leak:
+      return {0, 114, 178};  // blue
+    case Label::EdgeShadow:
+      return {240, 228, 66};  // yellow
+    case Label::EdgeLight:
+      return {86, 180, 233};  // sky blue
+    case Label::Uncovered:
+      return {204, 121, 167};  // reddish purple
   }
   return {255, 0, 255};
 }
@@ -83,7 +90,8 @@ int layOutLegend(Image8* canvas, int width, int top, int scale, const std::strin
     }
     if (canvas != nullptr) {
       fillRectangle(*canvas, x, y - scale, x + swatch, y - scale + swatch, entry.color);
-      if (entry.color == kAgreeLit) fillRectangle(*canvas, x + swatch / 2, y - scale, x + swatch, y - scale + swatch, kAgreeShadow);
+      if (entry.color == kAgreeLit)
+        fillRectangle(*canvas, x + swatch / 2, y - scale, x + swatch, y - scale + swatch, kAgreeShadow);
       drawText(*canvas, x + swatch + 3 * scale, y, scale, entry.text, kText);
     }
     x += needed;
@@ -119,8 +127,10 @@ Image8 labelPicture(const Receivers& receivers, const Truth& truth, const LabelI
     for (int x = 0; x < receivers.width; ++x) {
       const size_t i = static_cast<size_t>(y) * receivers.width + x;
       glm::u8vec3 color = labelColor(labels.labels[i]);
-      if (receivers.states[i] == PixelState::Empty) color = kNothing;
-      else if (labels.labels[i] == Label::Agree && truth.lit[i] == 0) color = kAgreeShadow;
+      if (receivers.states[i] == PixelState::Empty)
+        color = kNothing;
+      else if (labels.labels[i] == Label::Agree && truth.lit[i] == 0)
+        color = kAgreeShadow;
       setPixel(image, x, y, color);
     }
   }
@@ -142,9 +152,13 @@ Image8 visibilityPicture(const Receivers& receivers, std::span<const float> visi
     for (int x = 0; x < receivers.width; ++x) {
       const size_t i = static_cast<size_t>(y) * receivers.width + x;
       glm::u8vec3 color(static_cast<uint8_t>(std::lround(255.0f * std::clamp(visibility[i], 0.0f, 1.0f))));
-      if (visibility[i] < 0.0f) color = {255, 0, 255};
-      else if (receivers.states[i] == PixelState::Empty) color = kNothing;
-      else if (receivers.states[i] == PixelState::FacingAway || receivers.states[i] == PixelState::OutsideCone) color = kDark;
+      if (visibility[i] < 0.0f)
+        color = {255, 0, 255};
+      else if (receivers.states[i] == PixelState::Empty)
+        color = kNothing;
+      else if (receivers.states[i] == PixelState::FacingAway ||
+               receivers.states[i] == PixelState::OutsideCone)
+        color = kDark;
       setPixel(image, x, y, color);
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Pictures for people: label maps with a legend, visibility in grey, stored depth. Colours are from the palette of Okabe and
-// Ito, "Color Universal Design" (2008), and differ in lightness too.
+// Pictures for people: label maps with a legend, visibility in grey, stored depth. Colours are from the
+// palette of Okabe and Ito, "Color Universal Design" (2008), and differ in lightness too.
 
 #include "base/image.h"
 #include "truth/labels.h"
@@ -11,9 +11,10 @@
 
 namespace gnomon {
 
-// `truth` darkens what agrees and is in shadow, so that shapes stay readable. A strip below the picture names every
-// colour and counts its pixels.
-Image8 labelPicture(const Receivers& receivers, const Truth& truth, const LabelImage& labels, const std::string& title);
+// `truth` darkens what agrees and is in shadow, so that shapes stay readable. A strip below the picture names
+// every colour and counts its pixels.
+Image8 labelPicture(const Receivers& receivers, const Truth& truth, const LabelImage& labels,
+                    const std::string& title);
 
 // One value a pixel: 1 white, 0 black; kUnknownVisibility magenta; pixels without a surface dark blue.
 Image8 visibilityPicture(const Receivers& receivers, std::span<const float> visibility);

@@ -21,11 +21,13 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Where a light without a direction is made to shine: the mean direction of the surfaces in the picture that it lights
-// (of all it faces, where it lights none). Directions and not points, so that what is near does not outweigh what is far.
+// Where a light without a direction is made to shine: the mean direction of the surfaces in the picture that
+// it lights (of all it faces, where it lights none). Directions and not points, so that what is near does not
+// outweigh what is far.
 glm::dvec3 aimOf(const Session& session, const Light& light) {
   const LightModel point{.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};
-  const Receivers receivers = computeReceivers(session.tracer(), session.view(), point, session.primitiveIds());
+  const Receivers receivers =
+      computeReceivers(session.tracer(), session.view(), point, session.primitiveIds());
   const Truth truth = computeTruth(session.tracer(), point, receivers);
   glm::dvec3 sum(0.0);
   for (size_t i = 0; i < receivers.states.size(); ++i) {
@@ -66,26 +68,30 @@ double Session::timeGBuffer() const {
 Exact computeExact(const Session& session, const Parameterization& parameterization) {
   Exact exact;
   exact.source = chooseLight(session.setup(), session.tracer(), parameterization);
-  const glm::dvec3 aimW = exact.source.type == LightType::Point ? aimOf(session, exact.source) : glm::dvec3(0.0);
+  const glm::dvec3 aimW =
+      exact.source.type == LightType::Point ? aimOf(session, exact.source) : glm::dvec3(0.0);
   exact.light = parameterization.lightModel(exact.source, aimW);
   exact.receivers = computeReceivers(session.tracer(), session.view(), exact.light, session.primitiveIds());
   if (exact.receivers.scored == 0)
-    throw WorldError(fmt::format("light '{}', camera '{}': the camera sees no surface that faces the light; move one of them "
-                                 "with --light or --camera",
-                                 exact.source.name, session.camera().name));
+    throw WorldError(fmt::format(
+        "light '{}', camera '{}': the camera sees no surface that faces the light; move one of them "
+        "with --light or --camera",
+        exact.source.name, session.camera().name));
   exact.truth = computeTruth(session.tracer(), exact.light, exact.receivers);
   return exact;
 }
 
-DrawnMap drawMap(const Session& session, const MapRenderer& renderer, const Parameterization& parameterization,
-                 const Exact& exact, int side, CullMode cull) {
+DrawnMap drawMap(const Session& session, const MapRenderer& renderer,
+                 const Parameterization& parameterization, const Exact& exact, int side, CullMode cull) {
   const Clock::time_point start = Clock::now();
   std::vector<glm::dvec3> scored;
   scored.reserve(exact.receivers.scored);
   for (size_t i = 0; i < exact.receivers.states.size(); ++i)
-    if (exact.receivers.states[i] == PixelState::Scored) scored.push_back(exact.receivers.samples[i].positionW);
+    if (exact.receivers.states[i] == PixelState::Scored)
+      scored.push_back(exact.receivers.samples[i].positionW);
   DrawnMap map;
-  map.fitted = parameterization.fit({.scene = session.scene(), .light = exact.light, .receiversW = scored, .side = side});
+  map.fitted = parameterization.fit(
+      {.scene = session.scene(), .light = exact.light, .receiversW = scored, .side = side});
   map.fitMs = millisecondsSince(start);
   map.image = std::make_unique<MapImage>(session.device(), map.fitted);
   map.buildMs = redrawMap(session, renderer, map, exact, cull);
@@ -99,8 +105,8 @@ double redrawMap(const Session& session, const MapRenderer& renderer, const Draw
   return commands.submitAndWait().wallMs;
 }
 
-double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact, int method,
-                      const glsl::BiasParams& params) {
+double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
+                      int method, const glsl::BiasParams& params) {
   passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, params));
   gpu::Commands commands(session.device(), "visibility");
   passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, method, false);
@@ -122,7 +128,8 @@ Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const 
   gpu::Commands commands(session.device(), "visibility, diagnosed");
   passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, method, true);
   commands.submitAndWait();
-  const auto diagnosis = gpu::downloadAs<glsl::PixelDiagnosis>(session.device(), passes.visibility.diagnosis());
+  const auto diagnosis =
+      gpu::downloadAs<glsl::PixelDiagnosis>(session.device(), passes.visibility.diagnosis());
 
   Judged judged;
   judged.visibility = gpu::downloadAs<float>(session.device(), passes.visibility.visibility());
@@ -137,7 +144,8 @@ Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const 
   return judged;
 }
 
-ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact, std::span<const float> visibility) {
+ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact,
+                      std::span<const float> visibility) {
   // Exposure: a white surface that faces the light at the median distance of what is lit has radiance 0.75.
   std::vector<double> squaredDistances;
   for (size_t i = 0; i < exact.receivers.states.size(); i += 7) {

@@ -1,6 +1,6 @@
 #pragma once
-// A scene with its light and camera on a device: what every verb of the program starts from, and one configuration of it
-// rendered, traced and labelled.
+// A scene with its light and camera on a device: what every verb of the program starts from, and one
+// configuration of it rendered, traced and labelled.
 
 #include "base/image.h"
 #include "lab/setup.h"
@@ -59,8 +59,8 @@ struct DrawnMap {
   double fitMs = 0.0;
   double buildMs = 0.0;  // the last drawing, wall clock
 };
-DrawnMap drawMap(const Session& session, const MapRenderer& renderer, const Parameterization& parameterization,
-                 const Exact& exact, int side, CullMode cull);
+DrawnMap drawMap(const Session& session, const MapRenderer& renderer,
+                 const Parameterization& parameterization, const Exact& exact, int side, CullMode cull);
 double redrawMap(const Session& session, const MapRenderer& renderer, const DrawnMap& map, const Exact& exact,
                  CullMode cull);
 
@@ -74,8 +74,8 @@ struct Passes {
 };
 
 // One visibility pass without diagnosis; wall clock.
-double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact, int method,
-                      const glsl::BiasParams& params);
+double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
+                      int method, const glsl::BiasParams& params);
 
 // One bias on one map: what it says of every pixel, and why it is wrong where it is.
 struct Judged {
@@ -88,7 +88,8 @@ Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const 
              const glsl::BiasParams& params);
 
 // Linear rgb by a given visibility, exposed so that a typical lit surface is neither dark nor burnt.
-ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact, std::span<const float> visibility);
+ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact,
+                      std::span<const float> visibility);
 
 // The light ray through the centre of the texel that decided a pixel, in the world.
 RayD texelRayW(const FittedMap& fitted, uint32_t texelWord);

@@ -16,7 +16,8 @@ namespace {
 std::optional<double> parseNumber(const std::string& text) {
   double value = 0.0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
   return value;
 }
 
@@ -48,7 +49,8 @@ bool isRoofed(const Tracer& tracer, const Bounds& bounds) {
   for (int i = 0; i < kGrid * kGrid; ++i) {
     const double u = 0.2 + 0.6 * (i % kGrid) / (kGrid - 1);
     const double v = 0.2 + 0.6 * (i / kGrid) / (kGrid - 1);
-    const glm::dvec3 origin(bounds.lower.x + u * extent.x, bounds.upper.y + extent.y + 1.0, bounds.lower.z + v * extent.z);
+    const glm::dvec3 origin(bounds.lower.x + u * extent.x, bounds.upper.y + extent.y + 1.0,
+                            bounds.lower.z + v * extent.z);
     const std::optional<SurfaceHit> hit = tracer.firstHit({.origin = origin, .dir = {0, -1, 0}});
     if (hit && origin.y - hit->distance > bounds.upper.y - 0.25 * extent.y) ++covered;
   }
@@ -95,8 +97,8 @@ Light findLight(const Scene& scene, const std::string& text) {
   if (named != scene.lights.end()) return *named;
   const std::optional<glm::vec3> position = tryVec3(text);
   if (!position)
-    throw WorldError(fmt::format("--light {}: the scene has no light of this name; it has {}; or write x,y,z", text,
-                                 namesOf(scene.lights)));
+    throw WorldError(fmt::format("--light {}: the scene has no light of this name; it has {}; or write x,y,z",
+                                 text, namesOf(scene.lights)));
   Light light;
   light.name = text;
   light.positionW = *position;
@@ -112,11 +114,16 @@ Camera parseCamera(const std::string& text) {
   std::string key, value;
   const auto take = [&] {
     if (key.empty()) return;
-    if (key == "eye") eye = parseVec3("--camera eye", value);
-    else if (key == "target") target = parseVec3("--camera target", value);
-    else if (key == "fov" && parseNumber(value)) fov = *parseNumber(value);
-    else throw UsageError(fmt::format("--camera {}: '{}:{}' is not understood; write eye:x,y,z,target:x,y,z[,fov:degrees]",
-                                      text, key, value));
+    if (key == "eye")
+      eye = parseVec3("--camera eye", value);
+    else if (key == "target")
+      target = parseVec3("--camera target", value);
+    else if (key == "fov" && parseNumber(value))
+      fov = *parseNumber(value);
+    else
+      throw UsageError(
+          fmt::format("--camera {}: '{}:{}' is not understood; write eye:x,y,z,target:x,y,z[,fov:degrees]",
+                      text, key, value));
   };
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {
@@ -131,7 +138,8 @@ Camera parseCamera(const std::string& text) {
   }
   take();
   if (!eye || !target || *eye == *target)
-    throw UsageError(fmt::format("--camera {}: needs an eye and another target; write eye:x,y,z,target:x,y,z[,fov:degrees]", text));
+    throw UsageError(fmt::format(
+        "--camera {}: needs an eye and another target; write eye:x,y,z,target:x,y,z[,fov:degrees]", text));
   if (!(fov >= 1.0 && fov <= 170.0))
     throw UsageError(fmt::format("--camera {}: fov {} is outside 1..170 degrees", text, fov));
   return lookAt("from the command line", *eye, *target, static_cast<float>(glm::radians(fov)));
@@ -176,9 +184,10 @@ Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Param
     light.outerConeRad = static_cast<float>(glm::radians(0.5 * *options.coneDegrees));
   }
   if (map.takes(light.type) == Parameterization::Takes::No)
-    throw WorldError(fmt::format("--light {}: a directional light has no position, so a {} map cannot be made of it; take "
-                                 "--maps directional, or another light, or x,y,z",
-                                 light.name, map.name()));
+    throw WorldError(
+        fmt::format("--light {}: a directional light has no position, so a {} map cannot be made of it; take "
+                    "--maps directional, or another light, or x,y,z",
+                    light.name, map.name()));
   return light;
 }
 
@@ -188,9 +197,10 @@ Camera chooseCamera(const SetupOptions& options, const Tracer& tracer) {
   const auto named = std::ranges::find(scene.cameras, options.camera, &Camera::name);
   if (named != scene.cameras.end()) return *named;
   if (options.camera.find(':') != std::string::npos) return parseCamera(options.camera);
-  throw WorldError(fmt::format(
-      "--camera {}: the scene has no camera of this name; it has {}; or write eye:x,y,z,target:x,y,z[,fov:degrees]",
-      options.camera, namesOf(scene.cameras)));
+  throw WorldError(
+      fmt::format("--camera {}: the scene has no camera of this name; it has {}; or write "
+                  "eye:x,y,z,target:x,y,z[,fov:degrees]",
+                  options.camera, namesOf(scene.cameras)));
 }
 
 }  // namespace gnomon

@@ -9,10 +9,13 @@
 namespace gnomon {
 
 struct SetupOptions {
-  std::string scene;   // a glTF file or a generated scene's name
-  std::string light;   // NAME or x,y,z; empty: the first light the map can take, else one above the scene's centre
-  std::string camera;  // NAME or eye:x,y,z,target:x,y,z[,fov:deg]; empty: the first, else one that sees the scene
-  std::string direction;              // x,y,z: the way the light shines; empty: the light's own, else where the camera looks
+  std::string scene;  // a glTF file or a generated scene's name
+  std::string
+      light;  // NAME or x,y,z; empty: the first light the map can take, else one above the scene's centre
+  std::string
+      camera;  // NAME or eye:x,y,z,target:x,y,z[,fov:deg]; empty: the first, else one that sees the scene
+  std::string
+      direction;  // x,y,z: the way the light shines; empty: the light's own, else where the camera looks
   std::optional<double> coneDegrees;  // full angle of a spot
   std::string size = "1024";          // N or WxH, pixels
 };
@@ -28,8 +31,8 @@ PictureSize parseSize(const std::string& text);
 // "1,2,3". Throws UsageError that names `flag`.
 glm::vec3 parseVec3(const std::string& flag, const std::string& text);
 
-// The light a map is made for. Throws UsageError (malformed) or WorldError (none of that name: lists those there are; or one
-// that the map cannot take).
+// The light a map is made for. Throws UsageError (malformed) or WorldError (none of that name: lists those
+// there are; or one that the map cannot take).
 Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map);
 
 // Throws UsageError (malformed) or WorldError (none of that name: lists those there are).

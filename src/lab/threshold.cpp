@@ -13,7 +13,8 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::array kMetrics = {"acne", "leak", "edge_shadow", "edge_light", "edge", "uncovered", "bias_error", "rmse"};
+constexpr std::array kMetrics = {"acne", "leak",      "edge_shadow", "edge_light",
+                                 "edge", "uncovered", "bias_error",  "rmse"};
 
 double metricOf(const Row& row, const std::string& metric) {
   if (metric == "acne") return static_cast<double>(row.acne);
@@ -32,13 +33,17 @@ bool isShare(const std::string& metric) {
 }  // namespace
 
 Threshold parseThreshold(const std::string& text) {
-  static const std::regex form(R"(^\s*(?:(?:([a-z-]+)/)?([a-z0-9-]+):)?([a-z_]+)\s*(>=|<=|>|<)\s*([0-9.eE+-]+)\s*(%?)\s*$)");
+  static const std::regex form(
+      R"(^\s*(?:(?:([a-z-]+)/)?([a-z0-9-]+):)?([a-z_]+)\s*(>=|<=|>|<)\s*([0-9.eE+-]+)\s*(%?)\s*$)");
   std::smatch match;
   Threshold threshold;
   threshold.text = text;
-  const char* help = "write [[map/]bias:]metric>limit[%], as in 'acne>0.1%' or 'spot/adaptive:leak>0'; metrics are acne, leak, "
-                     "edge_shadow, edge_light, edge, uncovered, bias_error, rmse";
-  if (!std::regex_match(text, match, form)) throw UsageError(fmt::format("--fail-if '{}': not understood; {}", text, help));
+  const char* help =
+      "write [[map/]bias:]metric>limit[%], as in 'acne>0.1%' or 'spot/adaptive:leak>0'; metrics are acne, "
+      "leak, "
+      "edge_shadow, edge_light, edge, uncovered, bias_error, rmse";
+  if (!std::regex_match(text, match, form))
+    throw UsageError(fmt::format("--fail-if '{}': not understood; {}", text, help));
   threshold.map = match[1];
   threshold.bias = match[2];
   threshold.metric = match[3];
@@ -62,11 +67,12 @@ std::optional<std::string> crossed(const Threshold& threshold, const std::vector
     if (!threshold.map.empty() && threshold.map != row.map) continue;
     if (!threshold.bias.empty() && threshold.bias != row.bias) continue;
     double value = metricOf(row, threshold.metric);
-    if (threshold.percent) value *= isShare(threshold.metric) ? 100.0 : 100.0 / static_cast<double>(row.scored);
+    if (threshold.percent)
+      value *= isShare(threshold.metric) ? 100.0 : 100.0 / static_cast<double>(row.scored);
     const bool beyond = threshold.below ? value < threshold.limit : value > threshold.limit;
     if (beyond || (threshold.orEqual && value == threshold.limit))
-      return fmt::format("{} {}: {} is {:.6g}{}, which crosses --fail-if '{}'", row.map, row.bias, threshold.metric, value,
-                         threshold.percent ? "%" : "", threshold.text);
+      return fmt::format("{} {}: {} is {:.6g}{}, which crosses --fail-if '{}'", row.map, row.bias,
+                         threshold.metric, value, threshold.percent ? "%" : "", threshold.text);
   }
   return std::nullopt;
 }

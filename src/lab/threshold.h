@@ -5,8 +5,8 @@
 //   adaptive:acne>0.1%    more than 0.1% of the scored pixels, in rows of that bias
 //   spot/dual:leak>=10    in rows of that map and bias
 //
-// Metrics: acne, leak, edge_shadow, edge_light, edge, uncovered, bias_error, rmse. Counts, unless a % follows;
-// bias_error is a share, rmse a number.
+// Metrics: acne, leak, edge_shadow, edge_light, edge, uncovered, bias_error, rmse. Counts, unless a %
+// follows; bias_error is a share, rmse a number.
 
 #include "lab/compare.h"
 
@@ -21,7 +21,7 @@ struct Threshold {
   std::string bias;  // empty: any
   std::string metric;
   bool orEqual = false;
-  bool below = false;    // < instead of >
+  bool below = false;  // < instead of >
   bool percent = false;
   double limit = 0.0;
 };

@@ -36,8 +36,7 @@ glsl::CameraView cameraView(const Camera& camera, int width, int height) {
   clipFromEye[1][1] = -1.0f / view.tanHalfY;
   clipFromEye[2][3] = -1.0f;
   clipFromEye[3][2] = camera.zNear;
-  const glm::mat3 eyeFromWorld =
-      glm::transpose(glm::mat3(view.rightW, view.upW, -view.forwardW));
+  const glm::mat3 eyeFromWorld = glm::transpose(glm::mat3(view.rightW, view.upW, -view.forwardW));
   glm::mat4 eyeFromWorldH(eyeFromWorld);
   eyeFromWorldH[3] = glm::vec4(-(eyeFromWorld * view.eyeW), 1.0f);
   view.clipFromWorld = clipFromEye * eyeFromWorldH;
@@ -58,7 +57,8 @@ GBuffer::GBuffer(const gpu::Device& device, int width, int height)
                       .height = static_cast<uint32_t>(height),
                       .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}) {}
 
-void GBuffer::record(gpu::Commands& commands, const SceneBuffers& scene, const glsl::CameraView& camera) const {
+void GBuffer::record(gpu::Commands& commands, const SceneBuffers& scene,
+                     const glsl::CameraView& camera) const {
   commands.beginRendering({.colors = {{.image = &ids_, .clear = VkClearColorValue{.uint32 = {0, 0, 0, 0}}}},
                            .depth = &depth_,
                            .clearDepth = 0.0f});

@@ -24,9 +24,9 @@ struct Draw {
 
 struct SceneBuffers {
   gpu::Buffer positions, triangles, instances, uvs, materials, textures, texels, normals;
-  std::vector<Draw> draws;                // opaque first
+  std::vector<Draw> draws;               // opaque first
   std::vector<uint32_t> firstTriangles;  // one an instance, in the array of triangles
-  bool instanced = false;                 // some matrix is not the identity
+  bool instanced = false;                // some matrix is not the identity
 };
 
 SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene);
@@ -35,8 +35,7 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene);
 template <typename Predicate>
 void recordDraws(gpu::Commands& commands, const SceneBuffers& scene, Predicate wanted) {
   for (const Draw& draw : scene.draws)
-    if (wanted(draw))
-      commands.drawIndexed(draw.indexCount, 1, draw.firstIndex, 0, draw.instance);
+    if (wanted(draw)) commands.drawIndexed(draw.indexCount, 1, draw.firstIndex, 0, draw.instance);
 }
 
 }  // namespace gnomon

@@ -1,6 +1,6 @@
 #pragma once
-// The list of biases: name, knobs with unit, range, default and a sentence. Flags, reports, --help and docs derive
-// from it. The decisions themselves are in shaders/shared/bias/.
+// The list of biases: name, knobs with unit, range, default and a sentence. Flags, reports, --help and docs
+// derive from it. The decisions themselves are in shaders/shared/bias/.
 
 #include "shared/bias.glsl"
 
@@ -16,12 +16,12 @@ struct BiasKnob {
   const char* name;  // on the command line --<bias>-<name>, in results params.<name>
   Unit unit;
   float lower, upper;
-  // A default in metres would mean nothing on a scene of another size: metres are given as a share of the scene's
-  // diagonal.
+  // A default in metres would mean nothing on a scene of another size: metres are given as a share of the
+  // scene's diagonal.
   float defaultValue;
   bool defaultOfSceneScale;
   const char* sentence;
-  float glsl::BiasParams::* field;
+  float glsl::BiasParams::*field;
 };
 
 struct BiasMethod {

@@ -33,8 +33,8 @@ Polygon clip(const Polygon& polygon, double a, const glm::dvec3& b) {
   return out;
 }
 
-// A window side as a half space of the light's frame, with depth = -z: u >= lo is x - lo*depth >= 0 in perspective and
-// x - lo >= 0 without.
+// A window side as a half space of the light's frame, with depth = -z: u >= lo is x - lo*depth >= 0 in
+// perspective and x - lo >= 0 without.
 Polygon clipToWindow(Polygon polygon, const AxisFrame& frame, const Window& window, double least) {
   for (int axis = 0; axis < 2 && polygon.count > 0; ++axis) {
     for (const double sign : {1.0, -1.0}) {
@@ -52,8 +52,8 @@ glm::dvec3 lightFromWorld(const AxisFrame& frame, const glm::dvec3& posW) {
   return glm::transpose(frame.worldFromLight) * (posW - frame.originW);
 }
 
-double nearestOfTriangle(const std::array<glm::dvec3, 3>& cornersL, const AxisFrame& frame, const Window& window,
-                         double least, double nearest) {
+double nearestOfTriangle(const std::array<glm::dvec3, 3>& cornersL, const AxisFrame& frame,
+                         const Window& window, double least, double nearest) {
   double depth = nearest;
   for (const glm::dvec3& corner : cornersL) depth = std::min(depth, -corner.z);
   if (depth >= nearest) return nearest;
@@ -101,14 +101,15 @@ double nearestCasterDepth(const Scene& scene, const AxisFrame& frame, const Wind
     const Mesh& mesh = scene.meshes[instance.mesh];
     const glm::dmat4 worldFromMesh(instance.worldFromMesh);
     const auto cornerL = [&](size_t index) {
-      return lightFromWorld(frame, glm::dvec3(worldFromMesh * glm::dvec4(mesh.positions[mesh.indices[index]], 1.0)));
+      return lightFromWorld(frame,
+                            glm::dvec3(worldFromMesh * glm::dvec4(mesh.positions[mesh.indices[index]], 1.0)));
     };
     nearest = tbb::parallel_reduce(
         tbb::blocked_range<size_t>(0, mesh.indices.size() / 3, 4096), nearest,
         [&](const tbb::blocked_range<size_t>& range, double best) {
           for (size_t t = range.begin(); t != range.end(); ++t)
-            best = nearestOfTriangle({cornerL(3 * t), cornerL(3 * t + 1), cornerL(3 * t + 2)}, frame, window, least,
-                                     best);
+            best = nearestOfTriangle({cornerL(3 * t), cornerL(3 * t + 1), cornerL(3 * t + 2)}, frame, window,
+                                     least, best);
           return best;
         },
         [](double a, double b) { return std::min(a, b); });

@@ -1,5 +1,6 @@
 #pragma once
-// Windows across a light's axis: what a planar map must cover, how its texels snap, how near its casters come.
+// Windows across a light's axis: what a planar map must cover, how its texels snap, how near its casters
+// come.
 
 #include "scene/scene.h"
 
@@ -25,12 +26,14 @@ struct Window {
   glm::dvec2 upper{0.0};
 };
 
-// The texel's size is rounded up to a step of a geometric series and the corner down to a multiple of that size: while the
-// window moves by less than a texel and grows by less than a step, every texel keeps its place in the world.
+// The texel's size is rounded up to a step of a geometric series and the corner down to a multiple of that
+// size: while the window moves by less than a texel and grows by less than a step, every texel keeps its
+// place in the world.
 inline constexpr double kTexelSizeStep = 1.0905077326652577;  // 2^(1/8): at most 9% of the resolution is lost
 Window snapWindow(const Window& window, int side);
 
-// Depth of the nearest triangle within the window, and not nearer than `least`; `farthest` where there is none.
+// Depth of the nearest triangle within the window, and not nearer than `least`; `farthest` where there is
+// none.
 double nearestCasterDepth(const Scene& scene, const AxisFrame& frame, const Window& window, double least,
                           double farthest);
 

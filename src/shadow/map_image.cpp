@@ -43,13 +43,16 @@ MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted)
                       .layerCount = static_cast<uint32_t>(fitted.map.layerCount),
                       .array = true,
                       .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}),
-      uniforms_(gpu::createBufferWith(device, "map uniforms",
-                                      std::vector<glsl::MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}})),
+      uniforms_(gpu::createBufferWith(
+          device, "map uniforms",
+          std::vector<glsl::MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
+          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)),
       layerCount_(fitted.map.layerCount),
       kind_(fitted.map.kind) {}
 
 MapRenderer::MapRenderer(const gpu::Device& device)
-    : opaque_(device, depthProgram("draw depth", false)), masked_(device, depthProgram("draw depth, masked", true)) {}
+    : opaque_(device, depthProgram("draw depth", false)),
+      masked_(device, depthProgram("draw depth, masked", true)) {}
 
 void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, const MapImage& map,
                          const LightModel& light, CullMode cull) const {
@@ -69,7 +72,8 @@ void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, con
   };
   const bool anyMasked = !scene.draws.empty() && scene.draws.back().masked;
   for (int layer = 0; layer < map.layerCount(); ++layer) {
-    commands.beginRendering({.depth = &map.depth(), .clearDepth = 1.0f, .layer = static_cast<uint32_t>(layer)});
+    commands.beginRendering(
+        {.depth = &map.depth(), .clearDepth = 1.0f, .layer = static_cast<uint32_t>(layer)});
     commands.bind(opaque_, gpu::asPush(layer),
                   {{glsl::kBindPositions, scene.positions},
                    {glsl::kBindInstances, scene.instances},

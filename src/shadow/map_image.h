@@ -8,7 +8,8 @@
 namespace gnomon {
 
 enum class CullMode {
-  Solids,  // back faces of closed one-sided meshes, seen from the light, are left out (Weiskopf & Ertl 2003, section 4)
+  Solids,  // back faces of closed one-sided meshes, seen from the light, are left out (Weiskopf & Ertl 2003,
+           // section 4)
   None,
 };
 
@@ -21,7 +22,7 @@ class MapImage {
   // Throws WorldError where the device cannot hold the map.
   MapImage(const gpu::Device& device, const FittedMap& fitted);
 
-  const gpu::Image& depth() const { return depth_; }          // D32, layerCount layers
+  const gpu::Image& depth() const { return depth_; }         // D32, layerCount layers
   const gpu::Buffer& uniforms() const { return uniforms_; }  // glsl::MapUniforms
   int layerCount() const { return layerCount_; }
   int kind() const { return kind_; }  // glsl::kMap*
@@ -37,10 +38,10 @@ class MapRenderer {
  public:
   explicit MapRenderer(const gpu::Device& device);
 
-  // `light` decides which solids may be culled: one that holds the light within its bounds shows it back faces only, and
-  // is drawn whole.
-  void record(gpu::Commands& commands, const SceneBuffers& scene, const MapImage& map, const LightModel& light,
-              CullMode cull) const;
+  // `light` decides which solids may be culled: one that holds the light within its bounds shows it back
+  // faces only, and is drawn whole.
+  void record(gpu::Commands& commands, const SceneBuffers& scene, const MapImage& map,
+              const LightModel& light, CullMode cull) const;
 
  private:
   gpu::GraphicsProgram opaque_;

@@ -11,18 +11,20 @@
 namespace gnomon {
 
 const std::vector<const Parameterization*>& parameterizations() {
-  static const std::vector<const Parameterization*> all = {&spotParameterization(), &directionalParameterization()};
+  static const std::vector<const Parameterization*> all = {&spotParameterization(),
+                                                           &directionalParameterization()};
   return all;
 }
 
 std::vector<const Parameterization*> parseMaps(const std::string& list) {
   std::string names;
-  for (const Parameterization* p : parameterizations()) names += (names.empty() ? "" : ", ") + std::string(p->name());
+  for (const Parameterization* p : parameterizations())
+    names += (names.empty() ? "" : ", ") + std::string(p->name());
   std::vector<const Parameterization*> chosen;
   std::istringstream words(list);
   for (std::string word; std::getline(words, word, ',');) {
-    const auto found =
-        std::ranges::find_if(parameterizations(), [&](const Parameterization* p) { return p->name() == word; });
+    const auto found = std::ranges::find_if(parameterizations(),
+                                            [&](const Parameterization* p) { return p->name() == word; });
     if (found == parameterizations().end())
       throw UsageError(fmt::format("--maps {}: no such map; choose from {}", word, names));
     if (std::ranges::find(chosen, *found) == chosen.end()) chosen.push_back(*found);

@@ -1,7 +1,7 @@
 #pragma once
-// A parameterization, as the rest of Gnomon sees it: it fits itself to a scene and a light, and draws its layers.
-// Its mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in shaders/shared/map.glsl, and a
-// FittedMap carries the numbers those functions read.
+// A parameterization, as the rest of Gnomon sees it: it fits itself to a scene and a light, and draws its
+// layers. Its mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in
+// shaders/shared/map.glsl, and a FittedMap carries the numbers those functions read.
 //
 // spot and directional are here; omni/ adds its own to the list.
 
@@ -34,7 +34,6 @@ struct FitInput {
   int side = 1024;                         // texels
 };
 
-
 class Parameterization {
  public:
   virtual ~Parameterization() = default;
@@ -42,11 +41,11 @@ class Parameterization {
   virtual const char* sentence() const = 0;  // for --help
   virtual int layerCount() const = 0;
   enum class Takes { No, IfNothingElse, Yes };
-  // Whether a light of this kind can be mapped. A spot map takes any positional light; a directional map makes a sun of
-  // one where the scene has no directional light.
+  // Whether a light of this kind can be mapped. A spot map takes any positional light; a directional map
+  // makes a sun of one where the scene has no directional light.
   virtual Takes takes(LightType type) const = 0;
-  // How a light is taken. `aimW` is the unit direction in which a light without one of its own is made to shine.
-  // The light is one that takes() does not refuse.
+  // How a light is taken. `aimW` is the unit direction in which a light without one of its own is made to
+  // shine. The light is one that takes() does not refuse.
   virtual LightModel lightModel(const Light& light, const glm::dvec3& aimW) const = 0;
   virtual FittedMap fit(const FitInput& input) const = 0;
 };

@@ -11,8 +11,8 @@ namespace gnomon {
 
 namespace {
 
-// The near and far ends are kept clear of the surfaces they were fitted to by a share of the range, far more than what
-// 32-bit matrices round (1e-6) and far less than what costs precision.
+// The near and far ends are kept clear of the surfaces they were fitted to by a share of the range, far more
+// than what 32-bit matrices round (1e-6) and far less than what costs precision.
 constexpr double kRangeSlack = 1e-3;
 // A point light cannot stand nearer to a caster than this share of the scene's diagonal.
 constexpr double kLeastNear = 1e-5;
@@ -30,7 +30,8 @@ glm::dmat4 clipFromLight(const Window& window, const DepthRange& range, bool per
   glm::dmat4 m(0.0);
   m[0][0] = scale.x;
   m[1][1] = -scale.y;
-  if (perspective) {  // depth = -z; x_clip = scale * (x - center * depth), z_clip = f (depth - n) / (f - n), w = depth
+  if (perspective) {  // depth = -z; x_clip = scale * (x - center * depth), z_clip = f (depth - n) / (f - n),
+                      // w = depth
     m[2] = {scale.x * center.x, -scale.y * center.y, -range.zFar / span, -1.0};
     m[3] = {0.0, 0.0, -range.zFar * range.zNear / span, 0.0};
   } else {
@@ -79,7 +80,8 @@ FittedMap fitPlanar(const FitInput& input, bool perspective) {
   const ReceiverBounds bounds = input.receiversW.empty() ? anythingAhead() : receiverBounds(input, frame);
   // Half a texel on every side keeps receivers on the very edge of the bounds inside.
   Window window = bounds.window;
-  const glm::dvec2 pad = (window.upper - window.lower) * (0.5 / input.side) + 1e-6 * (perspective ? 1.0 : scale);
+  const glm::dvec2 pad =
+      (window.upper - window.lower) * (0.5 / input.side) + 1e-6 * (perspective ? 1.0 : scale);
   window = snapWindow({.lower = window.lower - pad, .upper = window.upper + pad}, input.side);
 
   const double least = perspective ? kLeastNear * scale : -4.0 * scale;
@@ -111,7 +113,9 @@ class SpotParameterization final : public Parameterization {
   const char* sentence() const override { return "one perspective layer within a cone"; }
   int layerCount() const override { return 1; }
 
-  Takes takes(LightType type) const override { return type == LightType::Directional ? Takes::No : Takes::Yes; }
+  Takes takes(LightType type) const override {
+    return type == LightType::Directional ? Takes::No : Takes::Yes;
+  }
 
   LightModel lightModel(const Light& light, const glm::dvec3& aimW) const override {
     return {.type = LightType::Spot,
@@ -126,7 +130,9 @@ class SpotParameterization final : public Parameterization {
 class DirectionalParameterization final : public Parameterization {
  public:
   const char* name() const override { return "directional"; }
-  const char* sentence() const override { return "one orthographic layer; a positional light becomes a sun from its side"; }
+  const char* sentence() const override {
+    return "one orthographic layer; a positional light becomes a sun from its side";
+  }
   int layerCount() const override { return 1; }
 
   Takes takes(LightType type) const override {
@@ -134,8 +140,9 @@ class DirectionalParameterization final : public Parameterization {
   }
 
   LightModel lightModel(const Light& light, const glm::dvec3& aimW) const override {
-    return {.type = LightType::Directional,
-            .directionW = light.type == LightType::Point ? aimW : glm::normalize(glm::dvec3(light.directionW))};
+    return {
+        .type = LightType::Directional,
+        .directionW = light.type == LightType::Point ? aimW : glm::normalize(glm::dvec3(light.directionW))};
   }
 
   FittedMap fit(const FitInput& input) const override { return fitPlanar(input, false); }

@@ -8,7 +8,8 @@ namespace {
 
 glm::uvec3 groupsFor(int width, int height) {
   const uint32_t side = glsl::kShadeGroupSide;
-  return {(static_cast<uint32_t>(width) + side - 1) / side, (static_cast<uint32_t>(height) + side - 1) / side, 1};
+  return {(static_cast<uint32_t>(width) + side - 1) / side, (static_cast<uint32_t>(height) + side - 1) / side,
+          1};
 }
 
 VkDeviceSize pixelBytes(int width, int height, size_t each) {
@@ -35,7 +36,9 @@ glsl::ShadeUniforms shadeUniforms(const glsl::CameraView& camera, const LightMod
 VisibilityPass::VisibilityPass(const gpu::Device& device, int width, int height)
     : device_(device),
       groupCount_(groupsFor(width, height)),
-      uniforms_(device, {.name = "shade uniforms", .size = sizeof(glsl::ShadeUniforms)}),
+      uniforms_(device, {.name = "shade uniforms",
+                         .size = sizeof(glsl::ShadeUniforms),
+                         .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
       visibility_(device, {.name = "visibility", .size = pixelBytes(width, height, sizeof(float))}),
       diagnosis_(device,
                  {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}) {}
@@ -59,16 +62,18 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
 
 void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                             const MapImage& map, int method, bool diagnose) {
-  commands.dispatch(program({method, diagnose ? 1 : 0, map.kind(), map.layerCount(), scene.instanced ? 1 : 0}), groupCount_, {},
-                    {{glsl::kBindPositions, scene.positions},
-                     {glsl::kBindTriangles, scene.triangles},
-                     {glsl::kBindInstances, scene.instances},
-                     {glsl::kBindMap, map.uniforms()},
-                     {glsl::kBindMapDepth, map.depth()},
-                     {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
-                     {glsl::kBindShade, uniforms_},
-                     {glsl::kBindVisibility, visibility_},
-                     {glsl::kBindDiagnosis, diagnosis_}});
+  commands.dispatch(
+      program({method, diagnose ? 1 : 0, map.kind(), map.layerCount(), scene.instanced ? 1 : 0}), groupCount_,
+      {},
+      {{glsl::kBindPositions, scene.positions},
+       {glsl::kBindTriangles, scene.triangles},
+       {glsl::kBindInstances, scene.instances},
+       {glsl::kBindMap, map.uniforms()},
+       {glsl::kBindMapDepth, map.depth()},
+       {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+       {glsl::kBindShade, uniforms_},
+       {glsl::kBindVisibility, visibility_},
+       {glsl::kBindDiagnosis, diagnosis_}});
 }
 
 RadiancePass::RadiancePass(const gpu::Device& device, int width, int height)

@@ -1,6 +1,6 @@
 // Nothing half-written is left under a final name, and nothing beside it.
-#include "base/error.h"
 #include "base/file.h"
+#include "base/error.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -53,10 +53,12 @@ TEST_F(FileTest, WhatCannotBeReadOrWrittenIsNamed) {
     }
     return std::string();
   };
-  EXPECT_NE(messageOf([&] { readFile(folder_ / "absent"); }).find("absent: cannot be read"), std::string::npos);
+  EXPECT_NE(messageOf([&] { readFile(folder_ / "absent"); }).find("absent: cannot be read"),
+            std::string::npos);
   EXPECT_NE(messageOf([&] { readFile(folder_); }).find("is a folder"), std::string::npos);
   writeTextFile(folder_ / "file", "");
-  EXPECT_NE(messageOf([&] { writeTextFile(folder_ / "file" / "below", ""); }).find("file: cannot"), std::string::npos);
+  EXPECT_NE(messageOf([&] { writeTextFile(folder_ / "file" / "below", ""); }).find("file: cannot"),
+            std::string::npos);
 }
 
 }  // namespace

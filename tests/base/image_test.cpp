@@ -1,7 +1,7 @@
 // Images come back as they were written.
+#include "base/image.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/image.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -26,7 +26,8 @@ class ImageTest : public ::testing::Test {
 
 TEST_F(ImageTest, ExrKeepsEveryFloat) {
   ImageF image(7, 5, 3);
-  for (size_t i = 0; i < image.values.size(); ++i) image.values[i] = std::ldexp(static_cast<float>(i) - 50.3f, static_cast<int>(i % 40) - 20);
+  for (size_t i = 0; i < image.values.size(); ++i)
+    image.values[i] = std::ldexp(static_cast<float>(i) - 50.3f, static_cast<int>(i % 40) - 20);
   image.values[4] = std::numeric_limits<float>::infinity();
   writeExr(folder_ / "a.exr", image, {"visibility", "truth", "label"});
   const ImageF back = readImage(folder_ / "a.exr");

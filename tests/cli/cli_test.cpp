@@ -32,8 +32,9 @@ class CliTest : public ::testing::Test {
   Result run(std::string arguments) const {
     for (size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@'))
       arguments.replace(at, 1, folder_.string());
-    const std::string command = std::string(GNOMON_PROGRAM) + " " + arguments + " >" + (folder_ / "stdout").string() + " 2>" +
-                                (folder_ / "stderr").string() + " </dev/null";
+    const std::string command = std::string(GNOMON_PROGRAM) + " " + arguments + " >" +
+                                (folder_ / "stdout").string() + " 2>" + (folder_ / "stderr").string() +
+                                " </dev/null";
     const int status = std::system(command.c_str());
     Result result{.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
                   .out = readFile(folder_ / "stdout"),
@@ -59,7 +60,8 @@ class CliTest : public ::testing::Test {
 };
 
 TEST_F(CliTest, CompareWritesATableResultsAndPicturesAndNoMessageOfValidation) {
-  const Result result = run("compare contact --maps spot,directional --size 96 --map-size 64 --repeats 1 -o @/out --json @/r.json");
+  const Result result = run(
+      "compare contact --maps spot,directional --size 96 --map-size 64 --repeats 1 -o @/out --json @/r.json");
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_NE(result.out.find("bias error"), std::string::npos);
@@ -72,7 +74,8 @@ TEST_F(CliTest, CompareWritesATableResultsAndPicturesAndNoMessageOfValidation) {
 
 TEST_F(CliTest, EveryBiasKnobIsAFlag) {
   const Result result =
-      run("compare corner --biases constant,adaptive --constant-offset 0.125 --adaptive-k 0.002 --epsilon-at stored --size 32 "
+      run("compare corner --biases constant,adaptive --constant-offset 0.125 --adaptive-k 0.002 --epsilon-at "
+          "stored --size 32 "
           "--map-size 32 --repeats 1 --cull none --json @/r.json");
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const auto rows = nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows");
@@ -83,7 +86,8 @@ TEST_F(CliTest, EveryBiasKnobIsAFlag) {
 }
 
 TEST_F(CliTest, MapTexelsPicksTheSide) {
-  const Result result = run("compare corner --biases none --map-texels 10000 --size 32 --repeats 1 --json @/r.json");
+  const Result result =
+      run("compare corner --biases none --map-texels 10000 --size 32 --repeats 1 --json @/r.json");
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows")[0].at("map_size"), 100);
 }
@@ -121,10 +125,13 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
 
 TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
   expectMistake("compare nowhere.glb", 1, "nowhere.glb");
-  expectMistake("compare contact --light moon --size 16", 1, "--light moon: the scene has no light of this name");
-  expectMistake("compare contact --camera x --size 16", 1, "--camera x: the scene has no camera of this name");
+  expectMistake("compare contact --light moon --size 16", 1,
+                "--light moon: the scene has no light of this name");
+  expectMistake("compare contact --camera x --size 16", 1,
+                "--camera x: the scene has no camera of this name");
   expectMistake("compare contact --device Voodoo2 --size 16", 1, "Voodoo2");
-  expectMistake("compare contact --camera eye:0,1000,0,target:0,2000,0 --size 16", 1, "the camera sees no surface");
+  expectMistake("compare contact --camera eye:0,1000,0,target:0,2000,0 --size 16", 1,
+                "the camera sees no surface");
   expectMistake("render contact --size 16 --map-size 16 -o /proc/nowhere/a.png", 1, "/proc/nowhere");
   expectMistake("scene nothing -o @/a.glb", 1, "nothing");
   expectMistake("compare contact --shader-dir @/none --size 16", 1, "none");
@@ -134,8 +141,16 @@ TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
 TEST_F(CliTest, RenderDrawsEveryKindOfPicture) {
   for (const char* show : {"beauty", "visibility", "truth", "labels", "depth"}) {
     const std::string name = std::string("@/") + show;
-    EXPECT_EQ(run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".png").exitCode, 0) << show;
-    EXPECT_EQ(run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".exr").exitCode, 0) << show;
+    EXPECT_EQ(
+        run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".png")
+            .exitCode,
+        0)
+        << show;
+    EXPECT_EQ(
+        run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".exr")
+            .exitCode,
+        0)
+        << show;
   }
   EXPECT_EQ(fileCount(), 10u);
 }
@@ -151,7 +166,8 @@ TEST_F(CliTest, AnExportedSceneComparesEqual) {
     auto b = nlohmann::json::parse(readFile(folder_ / "b.json"));
     ASSERT_EQ(a.at("rows").size(), b.at("rows").size());
     for (size_t i = 0; i < a.at("rows").size(); ++i)
-      for (const char* key : {"scored", "agree", "acne", "leak", "edge_shadow", "edge_light", "uncovered", "params"})
+      for (const char* key :
+           {"scored", "agree", "acne", "leak", "edge_shadow", "edge_light", "uncovered", "params"})
         EXPECT_EQ(a["rows"][i].at(key), b["rows"][i].at(key)) << scene << " " << key;
     EXPECT_EQ(a.at("scene").at("sceneScale"), b.at("scene").at("sceneScale"));
   }
@@ -159,7 +175,8 @@ TEST_F(CliTest, AnExportedSceneComparesEqual) {
 
 TEST_F(CliTest, SceneListsAndInfoTells) {
   const Result scenes = run("scene");
-  for (const char* name : {"lshape", "double-torus", "factory", "atrium", "corner", "sheets", "contact", "slope", "crowd"})
+  for (const char* name :
+       {"lshape", "double-torus", "factory", "atrium", "corner", "sheets", "contact", "slope", "crowd"})
     EXPECT_NE(scenes.out.find(name), std::string::npos) << name;
   const Result info = run("info lshape");
   EXPECT_NE(info.out.find("solid"), std::string::npos);

@@ -1,6 +1,7 @@
-// The main job end to end: rows that add up, results.json as docs/results.md has it, and the same bytes twice.
-#include "base/file.h"
+// The main job end to end: rows that add up, results.json as docs/results.md has it, and the same bytes
+// twice.
 #include "lab/compare.h"
+#include "base/file.h"
 #include "lab/pictures.h"
 #include "lab/results.h"
 #include "lab/table.h"
@@ -70,30 +71,35 @@ TEST(Compare, ResultsFollowTheSchema) {
   const Outcome outcome = run("lshape", "spot,directional");
   const Json& json = outcome.json;
   EXPECT_EQ(json.at("schema"), kResultsVersion);
-  for (const char* key : {"version", "device", "driver", "command"}) EXPECT_TRUE(json.at("gnomon").at(key).is_string());
+  for (const char* key : {"version", "device", "driver", "command"})
+    EXPECT_TRUE(json.at("gnomon").at(key).is_string());
   EXPECT_GT(json.at("scene").at("triangles"), 0);
   EXPECT_GT(json.at("scene").at("sceneScale"), 0.0);
   EXPECT_EQ(json.at("camera").at("width"), 160);
   EXPECT_EQ(json.at("truths").size(), 2u);
   EXPECT_EQ(json.at("truth"), json.at("truths")[0]);
   for (const Json& truth : json.at("truths")) {
-    for (const char* key : {"scored", "lit", "facing_away", "outside_cone", "margin_flips_half", "margin_flips_double"})
+    for (const char* key :
+         {"scored", "lit", "facing_away", "outside_cone", "margin_flips_half", "margin_flips_double"})
       EXPECT_TRUE(truth.at(key).is_number_unsigned()) << key;
     EXPECT_TRUE(truth.at("light").at("type").is_string());
   }
   ASSERT_EQ(json.at("rows").size(), 2u * biasMethods().size());
   for (const Json& row : json.at("rows")) {
     uint64_t sum = 0;
-    for (const char* key : {"agree", "acne", "leak", "edge_shadow", "edge_light", "uncovered"}) sum += row.at(key).get<uint64_t>();
+    for (const char* key : {"agree", "acne", "leak", "edge_shadow", "edge_light", "uncovered"})
+      sum += row.at(key).get<uint64_t>();
     EXPECT_EQ(sum, row.at("scored").get<uint64_t>());
-    const double error = (row.at("acne").get<double>() + row.at("leak").get<double>()) / row.at("scored").get<double>();
+    const double error =
+        (row.at("acne").get<double>() + row.at("leak").get<double>()) / row.at("scored").get<double>();
     EXPECT_DOUBLE_EQ(row.at("bias_error").get<double>(), error);
     EXPECT_EQ(row.at("map_texels"), 128 * 128);
     EXPECT_EQ(row.at("filter"), "none");
     EXPECT_TRUE(row.at("params").is_object());
     EXPECT_GE(row.at("build_ms"), 0.0);
     EXPECT_GE(row.at("shade_ms"), 0.0);
-    for (const Json& picture : row.at("pictures")) EXPECT_TRUE(outcome.files.contains(picture.get<std::string>()));
+    for (const Json& picture : row.at("pictures"))
+      EXPECT_TRUE(outcome.files.contains(picture.get<std::string>()));
   }
 }
 
@@ -115,7 +121,7 @@ TEST(LabelPicture, PaintsEachLabelInItsOwnColor) {
   truth.lit.assign(8, 1);
   truth.lit[7] = 0;
   LabelImage labels;
-  labels.labels = {Label::NotScored, Label::Agree,     Label::Acne,      Label::Leak,
+  labels.labels = {Label::NotScored,  Label::Agree,     Label::Acne,      Label::Leak,
                    Label::EdgeShadow, Label::EdgeLight, Label::Uncovered, Label::Agree};
   const Image8 picture = labelPicture(receivers, truth, labels, "title");
   std::set<std::vector<uint8_t>> colors;

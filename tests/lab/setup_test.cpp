@@ -1,6 +1,6 @@
 // Words of the command line to a light and a camera.
-#include "base/error.h"
 #include "lab/setup.h"
+#include "base/error.h"
 #include "scene/generate.h"
 #include "shadow/planar_map.h"
 
@@ -44,13 +44,16 @@ TEST_F(SetupTest, ACameraFromTheCommandLineLooksWhereItIsTold) {
 }
 
 TEST_F(SetupTest, MalformedCamerasAndLightsAreRefused) {
-  for (const char* text : {"eye:1,2,target:0,0,0", "eye:1,2,3", "eye:1,2,3,target:1,2,3", "eye:a,b,c,target:0,0,0",
-                           "eye:1,2,3,target:0,0,0,fov:200", "eye:1,2,3,target:0,0,0,roll:2"}) {
+  for (const char* text :
+       {"eye:1,2,target:0,0,0", "eye:1,2,3", "eye:1,2,3,target:1,2,3", "eye:a,b,c,target:0,0,0",
+        "eye:1,2,3,target:0,0,0,fov:200", "eye:1,2,3,target:0,0,0,roll:2"}) {
     options_.camera = text;
     EXPECT_THROW(chooseCamera(options_, tracer_), UsageError) << text;
   }
   options_.light = "moon";
-  EXPECT_NE(messageOf([&] { chooseLight(options_, tracer_, spotParameterization()); }).find(scene_.lights.front().name),
+  EXPECT_NE(messageOf([&] {
+              chooseLight(options_, tracer_, spotParameterization());
+            }).find(scene_.lights.front().name),
             std::string::npos);
   options_.light = "1,2,nan";
   EXPECT_THROW(chooseLight(options_, tracer_, spotParameterization()), WorldError);
@@ -70,7 +73,9 @@ TEST_F(SetupTest, EveryMapFindsALightItCanTake) {
 TEST_F(SetupTest, ADirectionalLightIsNoSpot) {
   scene_.lights = {Light{.name = "sun", .type = LightType::Directional}};
   options_.light = "sun";
-  EXPECT_NE(messageOf([&] { chooseLight(options_, tracer_, spotParameterization()); }).find("--maps directional"), std::string::npos);
+  EXPECT_NE(
+      messageOf([&] { chooseLight(options_, tracer_, spotParameterization()); }).find("--maps directional"),
+      std::string::npos);
 }
 
 TEST_F(SetupTest, WithoutLightsOneStandsAboveTheScene) {

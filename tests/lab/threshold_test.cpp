@@ -1,6 +1,6 @@
 // --fail-if: what is accepted, and which rows cross.
-#include "base/error.h"
 #include "lab/threshold.h"
+#include "base/error.h"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,8 @@ TEST(Threshold, SaysWhichRowCrossed) {
 }
 
 TEST(Threshold, RefusesWhatItDoesNotUnderstand) {
-  for (const char* text : {"", "acne", "acne>", ">3", "acne>x", "moire>3", "acne>1e999", "acne>3%%", "acne=3", "acne>--3"})
+  for (const char* text :
+       {"", "acne", "acne>", ">3", "acne>x", "moire>3", "acne>1e999", "acne>3%%", "acne=3", "acne>--3"})
     EXPECT_THROW(parseThreshold(text), UsageError) << text;
 }
 

@@ -18,7 +18,8 @@ using test::fittedSpot;
 using test::MapSample;
 using test::samplesOf;
 
-// A receiver on a plane at some angle, and what the map would hold of that very plane in the receiver's texel.
+// A receiver on a plane at some angle, and what the map would hold of that very plane in the receiver's
+// texel.
 struct PlaneCase {
   Receiver receiver;
   Tap tap;
@@ -51,7 +52,8 @@ std::vector<PlaneCase> planeCases(const ShadowMap& map, const FittedMap& fitted,
   return cases;
 }
 
-bool lit(int method, const ShadowMap& map, const BiasParams& params, const Receiver& receiver, const Tap& tap) {
+bool lit(int method, const ShadowMap& map, const BiasParams& params, const Receiver& receiver,
+         const Tap& tap) {
   bool known = false;
   const bool result = biasLit(method, map, params, receiver, tap, known);
   EXPECT_TRUE(known);
@@ -70,7 +72,8 @@ TEST_P(Bias, AdaptiveNeverShadowsAPlaneByItself) {
   for (const int epsilonAt : {kEpsilonAtFragment, kEpsilonAtOccluder, kEpsilonAtStored}) {
     params_.epsilonAt = epsilonAt;
     size_t acne = 0;
-    for (const PlaneCase& c : cases) acne += lit(kBiasAdaptive, fitted_.map, params_, c.receiver, c.tap) ? 0 : 1;
+    for (const PlaneCase& c : cases)
+      acne += lit(kBiasAdaptive, fitted_.map, params_, c.receiver, c.tap) ? 0 : 1;
     EXPECT_EQ(acne, 0u) << "epsilon at " << epsilonAtName(epsilonAt);
   }
 }
@@ -82,8 +85,8 @@ TEST_P(Bias, NoneShadowsAboutHalfOfATiltedPlane) {
   EXPECT_NEAR(static_cast<double>(acne) / static_cast<double>(cases.size()), 0.5, 0.03);
 }
 
-// Factor 2 covers a whole texel in the steeper of the two directions; a corner of the texel may lie 1.41 of that away,
-// never more than twice half a texel's change in u plus in v.
+// Factor 2 covers a whole texel in the steeper of the two directions; a corner of the texel may lie 1.41 of
+// that away, never more than twice half a texel's change in u plus in v.
 TEST_P(Bias, SlopeCoversATiltedPlane) {
   size_t acne = 0;
   const auto cases = planeCases(fitted_.map, fitted_, 1 << 14);
@@ -182,9 +185,10 @@ TEST_F(BiasOnTheGpu, VerdictsEqualTheCpuForEveryMethod) {
     queries.push_back(query);
   }
   const gpu::Buffer map = gpu::createBufferWith(
-      device(), "map", std::vector<MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}});
-  const auto answers = gpu::runKernel<BiasQuery, uint>(device(), GNOMON_TEST_SHADER("evaluate_bias.comp.glsl"),
-                                                       queries, {{kBindMap, map}});
+      device(), "map", std::vector<MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
+      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+  const auto answers = gpu::runKernel<BiasQuery, uint>(
+      device(), GNOMON_TEST_SHADER("evaluate_bias.comp.glsl"), queries, {{kBindMap, map}});
   size_t different = 0;
   std::set<uint> seen;
   for (size_t i = 0; i < queries.size(); ++i) {

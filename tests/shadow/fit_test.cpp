@@ -1,6 +1,6 @@
 // Windows that hold still, near planes that miss nothing.
-#include "map_fixture.h"
 #include "shadow/fit.h"
+#include "map_fixture.h"
 
 #include <cmath>
 
@@ -21,7 +21,8 @@ TEST(SnapWindow, CoversWhatItWasGiven) {
     for (int axis = 0; axis < 2; ++axis) {
       EXPECT_LE(snapped.lower[axis], window.lower[axis]);
       EXPECT_GE(snapped.upper[axis], window.upper[axis]);
-      const double lost = (snapped.upper[axis] - snapped.lower[axis]) / (window.upper[axis] - window.lower[axis]);
+      const double lost =
+          (snapped.upper[axis] - snapped.lower[axis]) / (window.upper[axis] - window.lower[axis]);
       EXPECT_LE(lost, kTexelSizeStep * 512.0 / 511.0 + 1e-9);
     }
   }
@@ -37,21 +38,23 @@ TEST(SnapWindow, HoldsStillWhenTheWindowMovesWithinATexel) {
   EXPECT_EQ(moved.lower, snapped.lower);
   EXPECT_EQ(moved.upper, snapped.upper);
   // Beyond it, by whole texels.
-  const Window far = snapWindow({.lower = window.lower + 10.0 * texel, .upper = window.upper + 10.0 * texel}, 256);
+  const Window far =
+      snapWindow({.lower = window.lower + 10.0 * texel, .upper = window.upper + 10.0 * texel}, 256);
   for (int axis = 0; axis < 2; ++axis) {
     const double texels = (far.lower[axis] - snapped.lower[axis]) / texel[axis];
     EXPECT_NEAR(texels, std::round(texels), 1e-6);
   }
 }
 
-// Brute force: the nearest of many points sampled on every triangle within the window is never nearer than the answer,
-// and comes close to it.
+// Brute force: the nearest of many points sampled on every triangle within the window is never nearer than
+// the answer, and comes close to it.
 TEST(NearestCasterDepth, IsTheNearestPointOfAnyTriangleInTheWindow) {
   const Scene scene = findGeneratedScene("contact")->make();
   const Bounds bounds = computeBounds(scene);
   const Window window{.lower = {-0.3, -0.25}, .upper = {0.35, 0.4}};
   for (const bool perspective : {true, false}) {
-    const glm::dvec3 eye = glm::dvec3(bounds.center()) + glm::dvec3(0.6, 1.0, 0.4) * static_cast<double>(bounds.diagonal());
+    const glm::dvec3 eye =
+        glm::dvec3(bounds.center()) + glm::dvec3(0.6, 1.0, 0.4) * static_cast<double>(bounds.diagonal());
     const AxisFrame frame = axisFrame(eye, glm::dvec3(bounds.center()) - eye, perspective);
     const double depth = nearestCasterDepth(scene, frame, window, 1e-3, 1e9);
     std::mt19937 random(3);
@@ -62,11 +65,13 @@ TEST(NearestCasterDepth, IsTheNearestPointOfAnyTriangleInTheWindow) {
       const glm::dmat4 m(instance.worldFromMesh);
       for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
         glm::dvec3 c[3];
-        for (size_t k = 0; k < 3; ++k) c[k] = glm::dvec3(m * glm::dvec4(mesh.positions[mesh.indices[t + k]], 1.0));
+        for (size_t k = 0; k < 3; ++k)
+          c[k] = glm::dvec3(m * glm::dvec4(mesh.positions[mesh.indices[t + k]], 1.0));
         for (int i = 0; i < 400; ++i) {
           const double u = std::sqrt(unit(random)), v = unit(random);
           const glm::dvec3 p = frame.planeFromWorld(c[0] * (1 - u) + c[1] * u * (1 - v) + c[2] * u * v);
-          if (p.x > window.lower.x && p.x < window.upper.x && p.y > window.lower.y && p.y < window.upper.y && p.z > 0)
+          if (p.x > window.lower.x && p.x < window.upper.x && p.y > window.lower.y && p.y < window.upper.y &&
+              p.z > 0)
             nearest = std::min(nearest, p.z);
         }
       }
@@ -86,7 +91,8 @@ TEST(NearestCasterDepth, ATriangleThatSurroundsTheLightIsCutAtTheLeastDepth) {
   mesh.indices = {0, 1, 2};
   scene.meshes.push_back(mesh);
   scene.instances.emplace_back();
-  // The light looks along -z from the origin; the triangle passes 0.1 above it and fills the upper half of the view.
+  // The light looks along -z from the origin; the triangle passes 0.1 above it and fills the upper half of
+  // the view.
   const AxisFrame frame = axisFrame({0, 0, 0}, {0, 0, -1}, true);
   const double depth = nearestCasterDepth(scene, frame, {.lower = {-1, -1}, .upper = {1, 1}}, 1e-4, 100.0);
   EXPECT_NEAR(depth, 0.1, 1e-6);  // where y / depth = 1
@@ -100,13 +106,15 @@ TEST(Fit, EveryReceiverIsCoveredAndBetweenNearAndFar) {
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     std::vector<glm::dvec3> receivers;
     for (int i = 0; i < 500; ++i)
-      receivers.emplace_back(glm::mix(bounds.lower, bounds.upper, glm::vec3(unit(random), unit(random), unit(random))));
+      receivers.emplace_back(
+          glm::mix(bounds.lower, bounds.upper, glm::vec3(unit(random), unit(random), unit(random))));
     for (const Parameterization* map : parameterizations()) {
       const glm::dvec3 eye = glm::dvec3(bounds.center()) + glm::dvec3(0, 2.0 * bounds.diagonal(), 0.1);
       Light light;
       light.positionW = glm::vec3(eye);
       const LightModel model = map->lightModel(light, glm::normalize(glm::dvec3(bounds.center()) - eye));
-      const FittedMap fitted = map->fit({.scene = scene, .light = model, .receiversW = receivers, .side = 64});
+      const FittedMap fitted =
+          map->fit({.scene = scene, .light = model, .receiversW = receivers, .side = 64});
       for (const glm::dvec3& receiver : receivers) {
         const glm::vec3 posL = glsl::lightFromWorld(fitted.frame, glm::vec3(receiver));
         EXPECT_TRUE(glsl::mapProject(fitted.map, posL).covered) << name << " " << map->name();

@@ -7,13 +7,25 @@ namespace gnomon::test {
 
 namespace {
 
-LightModel lightFor(const Scene& scene, const Parameterization& map) {
+// `aimW`: where a light without a direction shines.
+LightModel lightFor(const Scene& scene, const Parameterization& map, const glm::dvec3& aimW) {
   const auto wanted = std::ranges::find_if(scene.lights, [&](const Light& light) {
     return map.takes(light.type) == Parameterization::Takes::Yes;
   });
   const Light light = wanted != scene.lights.end() ? *wanted : scene.lights.front();
-  const glm::dvec3 aim = glm::normalize(glm::dvec3(computeBounds(scene).center() - light.positionW));
+  const glm::dvec3 aim = glm::normalize(aimW - glm::dvec3(light.positionW));
   return map.lightModel(light, aim);
+}
+
+glm::dvec3 meanSurface(const Receivers& receivers) {
+  glm::dvec3 sum(0.0);
+  double count = 0.0;
+  for (size_t i = 0; i < receivers.states.size(); ++i) {
+    if (receivers.states[i] == PixelState::Empty) continue;
+    sum += receivers.samples[i].positionW;
+    count += 1.0;
+  }
+  return sum / std::max(count, 1.0);
 }
 
 FittedMap fitContact(const Parameterization& map) {
@@ -21,8 +33,9 @@ FittedMap fitContact(const Parameterization& map) {
   std::vector<glm::dvec3> receivers;
   const Bounds bounds = computeBounds(scene);
   for (int i = 0; i < 8; ++i)
-    receivers.emplace_back(glm::mix(bounds.lower, bounds.upper, glm::vec3(i & 1, (i >> 1) & 1, i >> 2) * 0.6f + 0.2f));
-  const LightModel light = lightFor(scene, map);
+    receivers.emplace_back(
+        glm::mix(bounds.lower, bounds.upper, glm::vec3(i & 1, (i >> 1) & 1, i >> 2) * 0.6f + 0.2f));
+  const LightModel light = lightFor(scene, map, glm::dvec3(bounds.center()));
   return map.fit({.scene = scene, .light = light, .receiversW = receivers, .side = 256});
 }
 
@@ -59,8 +72,8 @@ glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth) {
   return glm::normalize(-rayDir + tanAngle * (u * std::cos(azimuth) + v * std::sin(azimuth)));
 }
 
-Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,
-                int mapSide, CullMode cull) {
+Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map,
+                int pictureSide, int mapSide, CullMode cull) {
   Rendered r;
   r.scene = openScene(sceneName);
   r.tracer = std::make_unique<Tracer>(r.scene);
@@ -72,9 +85,9 @@ Rendered render(const gpu::Device& device, const std::string& sceneName, const P
     r.gbuffer->record(commands, r.buffers, r.view);
     commands.submitAndWait();
   }
-  r.light = lightFor(r.scene, map);
-  r.receivers = computeReceivers(*r.tracer, r.view, r.light,
-                                 downloadPrimitiveIds(device, *r.gbuffer, r.buffers));
+  const std::vector<glsl::PrimitiveId> ids = downloadPrimitiveIds(device, *r.gbuffer, r.buffers);
+  r.light = lightFor(r.scene, map, meanSurface(computeReceivers(*r.tracer, r.view, {}, ids)));
+  r.receivers = computeReceivers(*r.tracer, r.view, r.light, ids);
   std::vector<glm::dvec3> scored;
   for (size_t i = 0; i < r.receivers.states.size(); ++i)
     if (r.receivers.states[i] == PixelState::Scored) scored.push_back(r.receivers.samples[i].positionW);

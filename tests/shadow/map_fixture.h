@@ -28,7 +28,8 @@ std::vector<MapSample> samplesOf(const FittedMap& fitted, size_t count, uint32_t
 // A unit normal that faces the light at posL, at any angle to the ray up to `mostTanAngle`.
 glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth);
 
-// A scene drawn by its first camera and mapped from its first positional light (or directional, for that kind).
+// A scene drawn by its first camera and mapped from its first positional light (or directional, for that
+// kind).
 struct Rendered {
   Scene scene;
   std::unique_ptr<Tracer> tracer;
@@ -40,7 +41,7 @@ struct Rendered {
   FittedMap fitted;
   std::unique_ptr<MapImage> image;
 };
-Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,
-                int mapSide, CullMode cull);
+Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map,
+                int pictureSide, int mapSide, CullMode cull);
 
 }  // namespace gnomon::test

@@ -9,22 +9,25 @@ namespace {
 
 RayD texelRay(const FittedMap& fitted, int x, int y) {
   const glsl::Ray ray = glsl::mapTexelRay(fitted.map, 0, glsl::mapTexelCenter(fitted.map, {x, y}));
-  const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW), glm::dvec3(fitted.frame.backW));
+  const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
+                                  glm::dvec3(fitted.frame.backW));
   return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
           .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))};
 }
 
-// The four corners of the middle half of a texel: where they do not all see one triangle, the texel's centre is near an edge
-// of one, and the rasterizer's grid of 1/256 texel may decide it otherwise than the ray.
+// The four corners of the middle half of a texel: where they do not all see one triangle, the texel's centre
+// is near an edge of one, and the rasterizer's grid of 1/256 texel may decide it otherwise than the ray.
 bool isNearPrimitiveEdge(const Tracer& tracer, const FittedMap& fitted, int x, int y) {
   std::optional<Primitive> seen;
   for (int i = 0; i < 4; ++i) {
     const glm::vec2 uv = (glm::vec2(x, y) + 0.5f + 0.02f * glm::vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1)) /
                          static_cast<float>(fitted.map.side);
     const glsl::Ray ray = glsl::mapTexelRay(fitted.map, 0, uv);
-    const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW), glm::dvec3(fitted.frame.backW));
-    const auto hit = tracer.firstHit({.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
-                                      .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))});
+    const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
+                                    glm::dvec3(fitted.frame.backW));
+    const auto hit =
+        tracer.firstHit({.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
+                         .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))});
     if (!hit) return true;
     if (i > 0 && !(*seen == hit->primitive)) return true;
     seen = hit->primitive;
@@ -32,8 +35,9 @@ bool isNearPrimitiveEdge(const Tracer& tracer, const FittedMap& fitted, int x, i
   return false;
 }
 
-// The rasterizer evaluates z = a + x dz/dx + y dz/dy in floats, and a and the products are as large as the plane's change of
-// depth across the whole map: each rounds by 2^-24 of that. 16 more are the transforms of both sides.
+// The rasterizer evaluates z = a + x dz/dx + y dz/dy in floats, and a and the products are as large as the
+// plane's change of depth across the whole map: each rounds by 2^-24 of that. 16 more are the transforms of
+// both sides.
 float rasterTolerance(const FittedMap& fitted, const SurfaceHit& hit, int x, int y) {
   const auto planeDepth = [&](int tx, int ty) {
     const RayD ray = texelRay(fitted, tx, ty);
@@ -43,7 +47,8 @@ float rasterTolerance(const FittedMap& fitted, const SurfaceHit& hit, int x, int
     const glm::vec3 posL = glsl::lightFromWorld(fitted.frame, glm::vec3(ray.origin + ray.dir * t));
     return glsl::mapDepth(fitted.map, 0, posL);
   };
-  const float change = std::abs(planeDepth(x + 1, y) - planeDepth(x, y)) + std::abs(planeDepth(x, y + 1) - planeDepth(x, y));
+  const float change =
+      std::abs(planeDepth(x + 1, y) - planeDepth(x, y)) + std::abs(planeDepth(x, y + 1) - planeDepth(x, y));
   return 5.97e-8f * (16.0f + 2.0f * change * static_cast<float>(fitted.map.side));
 }
 
@@ -60,14 +65,18 @@ class MapImageTest : public gpu::GpuTest {
         const float stored = depths[static_cast<size_t>(y) * 256 + x];
         float expected = 1.0f;
         if (hit) {
-          const glsl::Ray ray = glsl::mapTexelRay(r.fitted.map, 0, glsl::mapTexelCenter(r.fitted.map, {x, y}));
-          expected = glsl::mapDepth(r.fitted.map, 0, ray.origin + ray.dir * static_cast<float>(hit->distance));
+          const glsl::Ray ray =
+              glsl::mapTexelRay(r.fitted.map, 0, glsl::mapTexelCenter(r.fitted.map, {x, y}));
+          expected =
+              glsl::mapDepth(r.fitted.map, 0, ray.origin + ray.dir * static_cast<float>(hit->distance));
           ++covered;
         }
         const float tolerance = hit ? rasterTolerance(r.fitted, *hit, x, y) : 0.0f;
         if (std::abs(stored - std::min(expected, 1.0f)) <= tolerance) continue;
-        if (isNearPrimitiveEdge(*r.tracer, r.fitted, x, y)) ++offAtEdges;
-        else ++off;
+        if (isNearPrimitiveEdge(*r.tracer, r.fitted, x, y))
+          ++offAtEdges;
+        else
+          ++off;
       }
     }
     EXPECT_EQ(off, 0u) << scene << " " << map.name();
@@ -88,11 +97,13 @@ TEST_F(MapImageTest, EveryTexelHoldsTheFirstHitOfItsRayInInstances) {
   compareWithRays("crowd:20000", spotParameterization());
 }
 
-// A closed solid seen from outside has a front face before every back face, so leaving the back faces out changes no texel
-// but those where its silhouette falls between the sample points.
+// A closed solid seen from outside has a front face before every back face, so leaving the back faces out
+// changes no texel but those where its silhouette falls between the sample points.
 TEST_F(MapImageTest, CullingSolidsChangesOnlySilhouettes) {
-  const test::Rendered all = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
-  const test::Rendered culled = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::Solids);
+  const test::Rendered all =
+      test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
+  const test::Rendered culled =
+      test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::Solids);
   const auto a = gpu::downloadAs<float>(device(), all.image->depth());
   const auto b = gpu::downloadAs<float>(device(), culled.image->depth());
   size_t different = 0;

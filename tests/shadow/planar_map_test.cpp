@@ -1,4 +1,5 @@
-// shared/map.glsl for spot and directional maps: the functions are each other's inverses, and the same on both processors.
+// shared/map.glsl for spot and directional maps: the functions are each other's inverses, and the same on
+// both processors.
 #include "map_fixture.h"
 #include "map_functions.glsl"
 #include "tests/run_kernel.h"
@@ -35,7 +36,8 @@ TEST_P(PlanarMap, DepthGrowsStrictlyFromZeroToOneAlongEveryRay) {
     EXPECT_NEAR(mapDepth(fitted_.map, 0, ray.origin + ray.dir * length), 1.0f, 1e-6f);
     float before = -1.0f;
     for (int i = 0; i <= 100; ++i) {
-      const float depth = mapDepth(fitted_.map, 0, ray.origin + ray.dir * (length * static_cast<float>(i) / 100.0f));
+      const float depth =
+          mapDepth(fitted_.map, 0, ray.origin + ray.dir * (length * static_cast<float>(i) / 100.0f));
       ASSERT_GT(depth, before);
       before = depth;
     }
@@ -100,9 +102,10 @@ TEST_F(PlanarMapOnTheGpu, EveryFunctionEqualsTheCpuBitForBit) {
     for (const MapSample& sample : samplesOf(fitted, gpu::kKernelInputCount, 6))
       queries.push_back({sample.posL, sample.uv, sample.depth});
     const gpu::Buffer map = gpu::createBufferWith(
-        device(), "map", std::vector<MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}});
-    const auto answers = gpu::runKernel<MapQuery, MapAnswer>(device(), GNOMON_TEST_SHADER("evaluate_map.comp.glsl"),
-                                                             queries, {{kBindMap, map}});
+        device(), "map", std::vector<MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
+        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    const auto answers = gpu::runKernel<MapQuery, MapAnswer>(
+        device(), GNOMON_TEST_SHADER("evaluate_map.comp.glsl"), queries, {{kBindMap, map}});
     int64_t worst = 0;
     for (size_t i = 0; i < queries.size(); ++i) {
       const MapAnswer expected = answerMap(fitted.map, queries[i]);
@@ -116,7 +119,8 @@ TEST_F(PlanarMapOnTheGpu, EveryFunctionEqualsTheCpuBitForBit) {
       compare(answers[i].slope, expected.slope);
       compare(answers[i].distance, expected.distance);
     }
-    EXPECT_LE(worst, exactTolerance() == 0 ? 0 : 1 << 12);  // a GPU's fused products move differences of large terms
+    EXPECT_LE(worst,
+              exactTolerance() == 0 ? 0 : 1 << 12);  // a GPU's fused products move differences of large terms
   }
 }
 

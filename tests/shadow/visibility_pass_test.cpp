@@ -1,4 +1,5 @@
-// The visibility shader end to end, against exact rays: scenes with a known answer, and one golden picture a method.
+// The visibility shader end to end, against exact rays: scenes with a known answer, and one golden picture a
+// method.
 #include "base/image.h"
 #include "map_fixture.h"
 #include "truth/labels.h"
@@ -47,8 +48,8 @@ class VisibilityPassTest : public gpu::GpuTest {
     return result;
   }
 
-  // Blessed by tools/bless, in a commit of its own. On lavapipe the pictures are equal to the bit; another device may differ in
-  // half a percent of the pixels, at decisions within its rounding.
+  // Blessed by tools/bless, in a commit of its own. On lavapipe the pictures are equal to the bit; another
+  // device may differ in half a percent of the pixels, at decisions within its rounding.
   void compareWithGolden(const std::string& name, const std::vector<float>& visibility, int side) {
     Image8 picture(side, side, 1);
     for (size_t i = 0; i < visibility.size(); ++i) picture.values[i] = visibility[i] > 0.5f ? 255 : 0;
@@ -76,22 +77,26 @@ TEST_F(VisibilityPassTest, OnSlopeNoneHasPlentyOfAcneAndAdaptiveNone) {
 
 TEST_F(VisibilityPassTest, LabelsAddUpToTheScoredPixelsOnEveryScene) {
   for (const char* scene : {"contact", "corner", "lshape", "sheets"}) {
-    const test::Rendered r = test::render(device(), scene, spotParameterization(), 128, 128, CullMode::Solids);
+    const test::Rendered r =
+        test::render(device(), scene, spotParameterization(), 128, 128, CullMode::Solids);
     for (const BiasMethod& method : biasMethods()) {
       const Scored result = score(r, method.id);
       size_t sum = 0;
       for (int label = 1; label < kLabelCount; ++label) sum += result.labels.counts[label];
       EXPECT_EQ(sum, r.receivers.scored) << scene << " " << method.name;
-      EXPECT_EQ(result.labels.count(Label::Uncovered), 0u) << scene;  // the window is fitted to what is scored
+      EXPECT_EQ(result.labels.count(Label::Uncovered), 0u)
+          << scene;  // the window is fitted to what is scored
     }
   }
 }
 
-// Nothing but the floor and two walls, lit from inside the corner: whatever is dark is acne, at the creases, and never an edge.
+// Nothing but the floor and two walls, lit from inside the corner: whatever is dark is acne, at the creases,
+// and never an edge.
 TEST_F(VisibilityPassTest, TheConcaveCornerHasAcneAndNoEdges) {
   size_t acne = 0;
   for (const int mapSide : {24, 29, 37}) {
-    const test::Rendered r = test::render(device(), "corner", spotParameterization(), 256, mapSide, CullMode::Solids);
+    const test::Rendered r =
+        test::render(device(), "corner", spotParameterization(), 256, mapSide, CullMode::Solids);
     const Scored result = score(r, glsl::kBiasAdaptive);
     EXPECT_EQ(result.labels.count(Label::EdgeShadow), 0u) << mapSide;
     EXPECT_EQ(result.labels.count(Label::EdgeLight), 0u) << mapSide;
@@ -101,17 +106,20 @@ TEST_F(VisibilityPassTest, TheConcaveCornerHasAcneAndNoEdges) {
 }
 
 TEST_F(VisibilityPassTest, AnUnknownMethodIsMarkedForMagenta) {
-  const test::Rendered r = test::render(device(), "contact", spotParameterization(), 64, 64, CullMode::Solids);
+  const test::Rendered r =
+      test::render(device(), "contact", spotParameterization(), 64, 64, CullMode::Solids);
   const Scored result = score(r, 999);
   const auto marked = std::ranges::count(result.visibility, glsl::kUnknownVisibility);
   EXPECT_GT(marked, 100);
 }
 
 TEST_F(VisibilityPassTest, GoldenPictures) {
-  const test::Rendered r = test::render(device(), "contact", spotParameterization(), 256, 128, CullMode::Solids);
+  const test::Rendered r =
+      test::render(device(), "contact", spotParameterization(), 256, 128, CullMode::Solids);
   for (const BiasMethod& method : biasMethods())
     compareWithGolden(std::string("contact_spot_") + method.name, score(r, method.id).visibility, 256);
-  const test::Rendered d = test::render(device(), "lshape", directionalParameterization(), 256, 64, CullMode::Solids);
+  const test::Rendered d =
+      test::render(device(), "lshape", directionalParameterization(), 256, 64, CullMode::Solids);
   for (const BiasMethod& method : biasMethods())
     compareWithGolden(std::string("lshape_directional_") + method.name, score(d, method.id).visibility, 256);
 }
