@@ -3,6 +3,7 @@
 // The method, the map's kind and its layer count are specialization constants, so that each pipeline holds one bias on one
 // map only, and reads the matrices of a single layer from constant addresses. kDiagnose also writes what decided the
 // pixel; timings are taken without it.
+#include "shared/bias.glsl"
 #include "shared/shade.glsl"
 
 #include "scene/surface_fetch.glsl"

@@ -1,10 +1,11 @@
 // A bias decides whether a receiver is lit by what one texel stores. It is a function of the receiver's plane, the texel's
 // ray and the stored depths, and never knows which parameterization it runs on.
 //
-// To add one: a file in bias/, an id and a case here, a row in src/shadow/bias.cpp (docs/add_a_bias.md).
+// To add one: a file in bias/, an id in bias_params.glsl, a case here, a row in src/shadow/bias.cpp (docs/add_a_bias.md).
 #ifndef GNOMON_BIAS_GLSL
 #define GNOMON_BIAS_GLSL
 
+#include "shared/bias_params.glsl"
 #include "shared/geometry.glsl"
 #include "shared/lang.glsl"
 #include "shared/map.glsl"
@@ -24,24 +25,6 @@ struct Tap {
   Ray ray;
   float z1;  // nearest depth; 1 where the texel is empty
 };
-
-// Every knob of every method; names, units, ranges and defaults are in src/shadow/bias.cpp.
-struct BiasParams {
-  float constantOffset;  // metres
-  float slopeFactor;     // 1
-  float slopeOffset;     // metres
-  float adaptiveK;       // 1, of the scene's scale
-  int epsilonAt;         // kEpsilonAt*
-};
-
-const int kEpsilonAtFragment = 0;
-const int kEpsilonAtOccluder = 1;
-const int kEpsilonAtStored = 2;
-
-const int kBiasNone = 0;
-const int kBiasConstant = 1;
-const int kBiasSlope = 2;
-const int kBiasAdaptive = 3;
 
 // The receiver's plane where a ray meets it, as the map stores it. Where the ray does not meet the plane between the
 // near and the far end (grazing light) the receiver's own depth stands in.
@@ -93,8 +76,4 @@ GNOMON_FN bool biasLit(int method, ShadowMap map, BiasParams params, Receiver re
 }
 
 GNOMON_SHARED_END
-
-#ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::BiasParams) == 20);
-#endif
 #endif

@@ -2,7 +2,7 @@
 #ifndef GNOMON_SHADE_GLSL
 #define GNOMON_SHADE_GLSL
 
-#include "shared/bias.glsl"
+#include "shared/bias_params.glsl"
 #include "shared/lang.glsl"
 #include "shared/light_frame.glsl"
 #include "shared/map.glsl"

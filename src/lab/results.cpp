@@ -59,7 +59,7 @@ Json toJson(const TruthSummary& truth) {
   return json;
 }
 
-Json toJson(const Row& row) {
+Json toJson(const Row& row, double gbufferMs) {
   Json params = Json::object();
   for (const auto& [name, value] : row.knobs) params[name] = shortest(static_cast<float>(value));
   if (!row.epsilonAt.empty()) params["epsilon_at"] = row.epsilonAt;
@@ -84,6 +84,7 @@ Json toJson(const Row& row) {
   json["rmse"] = row.rmse;
   json["build_ms"] = row.buildMs;
   json["shade_ms"] = row.shadeMs;
+  json["frame_ms"] = gbufferMs + row.buildMs + row.shadeMs;
   json["pictures"] = row.pictures;
   return json;
 }
@@ -120,7 +121,7 @@ std::string resultsJson(const Session& session, const SetupOptions& setup, const
   json["truths"] = Json::array();
   for (const TruthSummary& truth : comparison.truths) json["truths"].push_back(toJson(truth));
   json["rows"] = Json::array();
-  for (const Row& row : comparison.rows) json["rows"].push_back(toJson(row));
+  for (const Row& row : comparison.rows) json["rows"].push_back(toJson(row, comparison.gbufferMs));
   return json.dump(2) + "\n";
 }
 

@@ -2,7 +2,7 @@
 // The list of biases: name, knobs with unit, range, default and a sentence. Flags, reports, --help and docs
 // derive from it. The decisions themselves are in shaders/shared/bias/.
 
-#include "shared/bias.glsl"
+#include "shared/bias_params.glsl"
 
 #include <string>
 #include <vector>

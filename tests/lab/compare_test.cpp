@@ -7,6 +7,7 @@
 #include "lab/table.h"
 #include "tests/gpu_fixture.h"
 
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -98,6 +99,9 @@ TEST(Compare, ResultsFollowTheSchema) {
     EXPECT_TRUE(row.at("params").is_object());
     EXPECT_GE(row.at("build_ms"), 0.0);
     EXPECT_GE(row.at("shade_ms"), 0.0);
+    EXPECT_DOUBLE_EQ(row.at("frame_ms").get<double>(), json.at("gbuffer_ms").get<double>() +
+                                                           row.at("build_ms").get<double>() +
+                                                           row.at("shade_ms").get<double>());
     for (const Json& picture : row.at("pictures"))
       EXPECT_TRUE(outcome.files.contains(picture.get<std::string>()));
   }
@@ -109,6 +113,24 @@ TEST(Compare, TheTableHasTheBestFirst) {
   for (size_t i = 1; i < rows.size(); ++i) EXPECT_LE(rows[i - 1].biasError(), rows[i].biasError());
   EXPECT_EQ(rows.back().bias, "none");
   EXPECT_LT(outcome.table.find("adaptive"), outcome.table.find("none"));
+}
+
+TEST(Compare, NoPictureHasANanOrAnInfinity) {
+  for (const char* scene : {"sheets", "crowd:20000", "factory"}) {
+    const Session session({.validation = true}, {.scene = scene, .size = "96"});
+    Passes passes(session.device(), session.view());
+    for (const Parameterization* map : parameterizations()) {
+      const Exact exact = computeExact(session, *map);
+      const DrawnMap drawn = drawMap(session, passes.map, *map, exact, 64, CullMode::Solids);
+      for (const BiasMethod& bias : biasMethods()) {
+        const Judged judged = judge(session, passes, drawn, exact, bias.id, biasParams(session, {}));
+        for (const float v : judged.visibility) ASSERT_TRUE(v == 0.0f || v == 1.0f) << scene << " " << bias.name;
+        for (const float v : renderRadiance(session, passes, exact, judged.visibility).values)
+          ASSERT_TRUE(std::isfinite(v) && v >= 0.0f) << scene << " " << bias.name;
+      }
+    }
+    EXPECT_TRUE(session.device().validationMessages().empty());
+  }
 }
 
 TEST(LabelPicture, PaintsEachLabelInItsOwnColor) {
