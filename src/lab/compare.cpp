@@ -51,6 +51,7 @@ Row rowFor(const Parameterization& map, const BiasMethod& bias, const glsl::Bias
   row.uncovered = labels.count(Label::Uncovered);
   row.scored = row.agree + row.acne + row.leak + row.edgeShadow + row.edgeLight + row.uncovered;
   row.grazing = judged.grazing;
+  row.edgeOn = judged.edgeOn;
   return row;
 }
 

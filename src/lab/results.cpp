@@ -80,6 +80,7 @@ Json toJson(const Row& row, double gbufferMs) {
   json["edge_light"] = row.edgeLight;
   json["uncovered"] = row.uncovered;
   json["grazing"] = row.grazing;
+  json["edge_on"] = row.edgeOn;
   json["bias_error"] = row.biasError();
   json["rmse"] = row.rmse;
   json["build_ms"] = row.buildMs;

@@ -136,8 +136,12 @@ Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const 
   judged.verdicts.resize(diagnosis.size());
   for (size_t i = 0; i < diagnosis.size(); ++i) {
     judged.verdicts[i] = verdictOf(diagnosis[i]);
-    if (exact.receivers.states[i] == PixelState::Scored && (diagnosis[i].flags & glsl::kPixelGrazing) != 0)
-      ++judged.grazing;
+    if (exact.receivers.states[i] != PixelState::Scored) continue;
+    if ((diagnosis[i].flags & glsl::kPixelGrazing) != 0) ++judged.grazing;
+    if (judged.verdicts[i] == Verdict::NotAsked) {
+      ++judged.edgeOn;
+      judged.verdicts[i] = exact.truth.lit[i] != 0 ? Verdict::Lit : Verdict::Shadow;
+    }
   }
   judged.labels = labelPixels(session.tracer(), exact.light, exact.receivers, exact.truth, judged.verdicts,
                               [&](size_t pixel) { return texelRayW(map.fitted, diagnosis[pixel].texel); });

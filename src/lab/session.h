@@ -82,6 +82,9 @@ struct Judged {
   std::vector<float> visibility;  // one a pixel
   std::vector<Verdict> verdicts;
   LabelImage labels;
+  // Scored pixels that the shader's floats take for facing away: edge-on to the light or the camera within rounding, where no
+  // light arrives either way. They count as agreeing.
+  size_t edgeOn = 0;
   size_t grazing = 0;  // scored pixels whose texel ray does not meet their plane between near and far
 };
 Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact, int method,
