@@ -14,8 +14,10 @@ layout(constant_id = 0) const int kMethod = kBiasNone;
 layout(constant_id = 1) const int kDiagnose = 0;
 layout(constant_id = 2) const int kMapKind = kMapPlanar;
 layout(constant_id = 3) const int kLayerCount = 1;
+layout(constant_id = 5) const int kSecondLayer = 0;  // 1: the method reads z2
 
 layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
+layout(binding = kBindSecondDepth) uniform texture2DArray secondDepthLayers;
 layout(binding = kBindPrimitiveIds) uniform utexture2D primitiveIds;
 layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
@@ -34,6 +36,8 @@ Tap fetchTap(ShadowMap map, int layer, ivec2 texel) {
   tap.texel = texel;
   tap.ray = mapTexelRay(map, layer, mapTexelCenter(map, texel));
   tap.z1 = texelFetch(mapDepthLayers, ivec3(texel, layer), 0).x;
+  tap.z2 = 1.0f;
+  if (kSecondLayer == 1) tap.z2 = texelFetch(secondDepthLayers, ivec3(texel, layer), 0).x;
   return tap;
 }
 
@@ -60,6 +64,7 @@ void main() {
       receiver.posL = lightFromWorld(lightFrame, surface.position);
       receiver.normalL = directionFromWorld(lightFrame, lightSide > 0.0f ? surface.normal : -surface.normal);
       ShadowMap map = specializedMap();
+      receiver = biasReceiver(kMethod, map, shade.bias, receiver);
       MapPoint point = mapProject(map, receiver.posL);
       result = 1.0f;
       if (point.covered) {

@@ -24,6 +24,7 @@ struct Tap {
   ivec2 texel;
   Ray ray;
   float z1;  // nearest depth; 1 where the texel is empty
+  float z2;  // nearest depth beyond z1; 1 where there is none, or where the map has one layer
 };
 
 // The receiver's plane where a ray meets it, as the map stores it. Where the ray does not meet the plane between the
@@ -51,10 +52,21 @@ GNOMON_SHARED_END
 
 #include "shared/bias/adaptive.glsl"
 #include "shared/bias/constant.glsl"
+#include "shared/bias/cosine.glsl"
+#include "shared/bias/dual_layer.glsl"
 #include "shared/bias/none.glsl"
+#include "shared/bias/normal_offset.glsl"
+#include "shared/bias/receiver_plane.glsl"
+#include "shared/bias/second_depth.glsl"
 #include "shared/bias/slope.glsl"
 
 GNOMON_SHARED_BEGIN
+
+// Where the receiver is looked up and compared: at itself, but for methods that move it first.
+GNOMON_FN Receiver biasReceiver(int method, ShadowMap map, BiasParams params, Receiver receiver) {
+  if (method == kBiasNormalOffset) return normalOffsetReceiver(map, params, receiver);
+  return receiver;
+}
 
 // Whether the texel lights the receiver. An unknown method sets `known` to false, and the shader paints magenta.
 GNOMON_FN bool biasLit(int method, ShadowMap map, BiasParams params, Receiver receiver, Tap tap,
@@ -70,6 +82,22 @@ GNOMON_FN bool biasLit(int method, ShadowMap map, BiasParams params, Receiver re
       return slopeLit(map, params, receiver, tap);
     case kBiasAdaptive:
       return adaptiveLit(map, params, receiver, tap);
+    case kBiasAdaptiveClamped:
+      return adaptiveClampedLit(map, params, receiver, tap);
+    case kBiasAdaptiveEhm:
+      return adaptiveEhmLit(map, params, receiver, tap);
+    case kBiasNormalOffset:
+      return noneLit(map, receiver, tap);
+    case kBiasCosine:
+      return cosineLit(map, params, receiver, tap);
+    case kBiasReceiverPlane:
+      return receiverPlaneLit(map, params, receiver, tap);
+    case kBiasSecondDepth:
+      return secondDepthLit(map, params, receiver, tap);
+    case kBiasMidpoint:
+      return midpointLit(map, receiver, tap);
+    case kBiasDual:
+      return dualLit(map, params, receiver, tap);
   }
   known = false;
   return false;

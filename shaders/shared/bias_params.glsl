@@ -13,6 +13,11 @@ struct BiasParams {
   float slopeOffset;     // metres
   float adaptiveK;       // 1, of the scene's scale
   int epsilonAt;         // kEpsilonAt*
+  float normalOffsetTexels;
+  float cosineOffset;         // metres
+  float receiverPlaneOffset;  // metres
+  float secondDepthOffset;    // metres
+  float dualOffset;           // metres
 };
 
 const int kEpsilonAtFragment = 0;
@@ -23,10 +28,18 @@ const int kBiasNone = 0;
 const int kBiasConstant = 1;
 const int kBiasSlope = 2;
 const int kBiasAdaptive = 3;
+const int kBiasNormalOffset = 4;
+const int kBiasCosine = 5;
+const int kBiasReceiverPlane = 6;
+const int kBiasSecondDepth = 7;
+const int kBiasMidpoint = 8;
+const int kBiasDual = 9;
+const int kBiasAdaptiveClamped = 10;
+const int kBiasAdaptiveEhm = 11;
 
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::BiasParams) == 20);
+static_assert(sizeof(gnomon::glsl::BiasParams) == 40);
 #endif
 #endif

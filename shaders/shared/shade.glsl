@@ -16,6 +16,7 @@ const int kBindShade = kBindFirstFree + 2;       // ShadeUniforms
 const int kBindVisibility = kBindFirstFree + 3;  // float a pixel
 const int kBindDiagnosis = kBindFirstFree + 4;   // PixelDiagnosis a pixel
 const int kBindRadiance = kBindFirstFree + 5;    // vec3 a pixel
+const int kBindSecondDepth = kBindFirstFree + 6;  // the second layers
 const int kShadeGroupSide = 8;                    // pixels; the work group is square
 
 struct ShadeUniforms {
@@ -55,7 +56,7 @@ GNOMON_FN vec3 towardsLight(ShadeUniforms shade, vec3 posW) { return shade.light
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::ShadeUniforms) == 128 + 20 + 16 + 16 + 24);
-static_assert(offsetof(gnomon::glsl::ShadeUniforms, ambient) == 192);
+static_assert(sizeof(gnomon::glsl::ShadeUniforms) == 128 + 40 + 16 + 16 + 24);
+static_assert(offsetof(gnomon::glsl::ShadeUniforms, ambient) == 212);
 #endif
 #endif

@@ -44,7 +44,9 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
     const std::vector<float> truth = truthVisibility(exact.receivers, exact.truth);
     return {visibilityPicture(exact.receivers, truth), oneChannel(session, truth), {"Y"}};
   }
-  const DrawnMap map = drawMap(session, passes.map, parameterization, exact, options.mapSide, options.cull);
+  const DrawnMap map =
+      drawMap(session, passes.map, fitMap(session, parameterization, exact, options.mapSide).fitted, exact,
+              bias.content, options.cull);
   if (show == "depth") {
     const ImageF metres = depthInMetres(session, map);
     return {depthPicture(metres), metres, {"metres"}};

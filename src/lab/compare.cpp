@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -41,8 +42,14 @@ Row rowFor(const Parameterization& map, const BiasMethod& bias, const glsl::Bias
     row.knobs.emplace_back(knob.name, static_cast<double>(params.*knob.field));
     row.knobUnits.emplace_back(unitName(knob.unit));
   }
+  // The three adaptive methods share one knob, which is adaptive's in the list.
+  if (bias.hasEpsilon && bias.knobs.empty()) {
+    row.knobs.emplace_back("k", static_cast<double>(params.adaptiveK));
+    row.knobUnits.emplace_back("");
+  }
+  row.content = contentName(bias.content);
   row.cull = cullModeName(options.cull);
-  if (bias.id == glsl::kBiasAdaptive) row.epsilonAt = epsilonAtName(params.epsilonAt);
+  if (bias.hasEpsilon) row.epsilonAt = epsilonAtName(params.epsilonAt);
   row.agree = labels.count(Label::Agree);
   row.acne = labels.count(Label::Acne);
   row.leak = labels.count(Label::Leak);
@@ -99,22 +106,51 @@ void writeRowPictures(const Session& session, Passes& passes, const Exact& exact
   row.pictures = {stem + ".labels.png", stem + ".visibility.png", stem + ".beauty.png", stem + ".exr"};
 }
 
+// Maps of one fit, by what they hold; drawn when first asked for.
+class MapSet {
+ public:
+  MapSet(const Session& session, const MapRenderer& renderer, const FittedMap& fitted, const Exact& exact,
+         CullMode cull)
+      : session_(session), renderer_(renderer), fitted_(fitted), exact_(exact), cull_(cull) {}
+
+  const DrawnMap& with(MapContent content) {
+    const auto found = maps_.find(content);
+    if (found != maps_.end()) return found->second;
+    return maps_.emplace(content, drawMap(session_, renderer_, fitted_, exact_, content, cull_))
+        .first->second;
+  }
+
+ private:
+  const Session& session_;
+  const MapRenderer& renderer_;
+  const FittedMap& fitted_;
+  const Exact& exact_;
+  CullMode cull_;
+  std::map<MapContent, DrawnMap> maps_;
+};
+
 // Rounds run one after another through all biases, so that a machine that slows down slows all of them.
-void timeRows(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
+void timeRows(const Session& session, Passes& passes, MapSet& maps, const Exact& exact,
               const CompareOptions& options, const glsl::BiasParams& params, std::span<Row> rows) {
-  std::vector<double> build;
+  std::map<MapContent, std::vector<double>> build;
   std::vector<std::vector<double>> shade(rows.size());
   for (int round = -1; round < options.repeats;
        ++round) {  // round -1 warms up: pipelines compile at first use
-    const double buildMs = redrawMap(session, passes.map, map, exact, options.cull);
-    if (round >= 0) build.push_back(buildMs);
+    for (const BiasMethod* bias : options.biases) {
+      std::vector<double>& times = build[bias->content];
+      if (static_cast<int>(times.size()) > round + 1)
+        continue;  // a map that another bias of this round had drawn
+      times.push_back(redrawMap(session, passes.map, maps.with(bias->content), exact, options.cull));
+    }
     for (size_t i = 0; i < rows.size(); ++i) {
-      const double shadeMs = timeVisibility(session, passes, map, exact, options.biases[i]->id, params);
+      const BiasMethod& bias = *options.biases[i];
+      const double shadeMs = timeVisibility(session, passes, maps.with(bias.content), exact, bias.id, params);
       if (round >= 0) shade[i].push_back(shadeMs);
     }
   }
+  for (auto& [content, times] : build) times.erase(times.begin());  // the warm-up
   for (size_t i = 0; i < rows.size(); ++i) {
-    rows[i].buildMs = median(build);
+    rows[i].buildMs = median(build[options.biases[i]->content]);
     rows[i].shadeMs = median(shade[i]);
   }
 }
@@ -176,25 +212,26 @@ Comparison compare(const Session& session, const CompareOptions& options) {
     summary.receiversAndTraceMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 
     progress.step(fmt::format("{}: map", parameterization->name()));
-    const DrawnMap map =
-        drawMap(session, passes.map, *parameterization, exact, options.mapSide, options.cull);
-    summary.zNear = map.fitted.zNear;
-    summary.zFar = map.fitted.zFar;
-    summary.fitMs = map.fitMs;
+    const Fit fit = fitMap(session, *parameterization, exact, options.mapSide);
+    MapSet maps(session, passes.map, fit.fitted, exact, options.cull);
+    summary.zNear = fit.fitted.zNear;
+    summary.zFar = fit.fitted.zFar;
+    summary.fitMs = fit.ms;
     comparison.truths.push_back(summary);
     if (!options.outDir.empty())
-      writeMapPictures(session, passes, exact, map, options.outDir / parameterization->name());
+      writeMapPictures(session, passes, exact, maps.with(MapContent::OneLayer),
+                       options.outDir / parameterization->name());
 
     const size_t firstRow = comparison.rows.size();
     for (const BiasMethod* bias : options.biases) {
       progress.step(fmt::format("{}: {}", parameterization->name(), bias->name));
-      const Judged judged = judge(session, passes, map, exact, bias->id, params);
+      const Judged judged = judge(session, passes, maps.with(bias->content), exact, bias->id, params);
       Row row = rowFor(*parameterization, *bias, params, options, judged);
       row.rmse = rmseOf(exact, judged);
       if (!options.outDir.empty()) writeRowPictures(session, passes, exact, judged, row, options.outDir);
       comparison.rows.push_back(std::move(row));
     }
-    timeRows(session, passes, map, exact, options, params, std::span(comparison.rows).subspan(firstRow));
+    timeRows(session, passes, maps, exact, options, params, std::span(comparison.rows).subspan(firstRow));
   }
   return comparison;
 }

@@ -34,11 +34,12 @@ struct Row {
   std::string bias;
   std::vector<std::pair<std::string, double>> knobs;  // name -> value in its unit
   std::vector<std::string> knobUnits;
+  std::string content;  // "one layer", "two layers", "back faces"
   std::string cull;
   std::string epsilonAt;  // empty where the method has none
   std::string filter = "none";
   size_t scored = 0, agree = 0, acne = 0, leak = 0, edgeShadow = 0, edgeLight = 0, uncovered = 0;
-  size_t grazing = 0, edgeOn = 0;  // as in Judged
+  size_t grazing = 0, edgeOn = 0;       // as in Judged
   double buildMs = 0.0, shadeMs = 0.0;  // medians, wall clock
   double biasError() const { return static_cast<double>(acne + leak) / static_cast<double>(scored); }
   // Of the binary visibility against the truth: the square root of the share of wrong pixels. A pixel that

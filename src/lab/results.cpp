@@ -63,6 +63,7 @@ Json toJson(const Row& row, double gbufferMs) {
   Json params = Json::object();
   for (const auto& [name, value] : row.knobs) params[name] = shortest(static_cast<float>(value));
   if (!row.epsilonAt.empty()) params["epsilon_at"] = row.epsilonAt;
+  params["map_content"] = row.content;
   params["cull"] = row.cull;
   Json json;
   json["map"] = row.map;

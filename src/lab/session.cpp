@@ -81,20 +81,24 @@ Exact computeExact(const Session& session, const Parameterization& parameterizat
   return exact;
 }
 
-DrawnMap drawMap(const Session& session, const MapRenderer& renderer,
-                 const Parameterization& parameterization, const Exact& exact, int side, CullMode cull) {
+Fit fitMap(const Session& session, const Parameterization& parameterization, const Exact& exact, int side) {
   const Clock::time_point start = Clock::now();
   std::vector<glm::dvec3> scored;
   scored.reserve(exact.receivers.scored);
   for (size_t i = 0; i < exact.receivers.states.size(); ++i)
     if (exact.receivers.states[i] == PixelState::Scored)
       scored.push_back(exact.receivers.samples[i].positionW);
-  DrawnMap map;
-  map.fitted = parameterization.fit(
+  Fit fit;
+  fit.fitted = parameterization.fit(
       {.scene = session.scene(), .light = exact.light, .receiversW = scored, .side = side});
-  map.fitMs = millisecondsSince(start);
-  map.image = std::make_unique<MapImage>(session.device(), map.fitted);
-  map.buildMs = redrawMap(session, renderer, map, exact, cull);
+  fit.ms = millisecondsSince(start);
+  return fit;
+}
+
+DrawnMap drawMap(const Session& session, const MapRenderer& renderer, const FittedMap& fitted,
+                 const Exact& exact, MapContent content, CullMode cull) {
+  DrawnMap map{.fitted = fitted, .image = std::make_unique<MapImage>(session.device(), fitted, content)};
+  redrawMap(session, renderer, map, exact, cull);
   return map;
 }
 

@@ -52,15 +52,21 @@ struct Exact {
 };
 Exact computeExact(const Session& session, const Parameterization& parameterization);
 
-// A fitted map, drawn.
+// A map fitted to what the camera sees, and how long that took.
+struct Fit {
+  FittedMap fitted;
+  double ms = 0.0;
+};
+Fit fitMap(const Session& session, const Parameterization& parameterization, const Exact& exact, int side);
+
+// A fitted map, drawn with what a bias needs of it.
 struct DrawnMap {
   FittedMap fitted;
   std::unique_ptr<MapImage> image;
-  double fitMs = 0.0;
-  double buildMs = 0.0;  // the last drawing, wall clock
 };
-DrawnMap drawMap(const Session& session, const MapRenderer& renderer,
-                 const Parameterization& parameterization, const Exact& exact, int side, CullMode cull);
+DrawnMap drawMap(const Session& session, const MapRenderer& renderer, const FittedMap& fitted,
+                 const Exact& exact, MapContent content, CullMode cull);
+// Wall clock of drawing it once more.
 double redrawMap(const Session& session, const MapRenderer& renderer, const DrawnMap& map, const Exact& exact,
                  CullMode cull);
 
@@ -82,8 +88,8 @@ struct Judged {
   std::vector<float> visibility;  // one a pixel
   std::vector<Verdict> verdicts;
   LabelImage labels;
-  // Scored pixels that the shader's floats take for facing away: edge-on to the light or the camera within rounding, where no
-  // light arrives either way. They count as agreeing.
+  // Scored pixels that the shader's floats take for facing away: edge-on to the light or the camera within
+  // rounding, where no light arrives either way. They count as agreeing.
   size_t edgeOn = 0;
   size_t grazing = 0;  // scored pixels whose texel ray does not meet their plane between near and far
 };

@@ -34,12 +34,12 @@ std::string comparisonTable(const Comparison& comparison) {
   size_t knobWidth = 5;
   for (const Row& row : comparison.rows) knobWidth = std::max(knobWidth, knobText(row).size());
   std::string text =
-      fmt::format("{:<12} {:<10} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>7} {:>9} {:>9}\n",
+      fmt::format("{:<16} {:<16} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>7} {:>9} {:>9}\n",
                   "map", "bias", "knobs", knobWidth, "agree", "acne", "leak", "edge_sh", "edge_li",
                   "uncovered", "bias error", "rmse", "build ms", "shade ms");
   for (const Row& row : ranked(comparison.rows)) {
     text += fmt::format(
-        "{:<12} {:<10} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9.4f}% {:>7.4f} {:>9.2f} {:>9.2f}\n",
+        "{:<16} {:<16} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9.4f}% {:>7.4f} {:>9.2f} {:>9.2f}\n",
         fmt::format("{} {}", row.map, row.mapSide), row.bias, knobText(row), knobWidth, row.agree, row.acne,
         row.leak, row.edgeShadow, row.edgeLight, row.uncovered, 100.0 * row.biasError(), row.rmse,
         row.buildMs, row.shadeMs);

@@ -13,8 +13,36 @@ namespace gnomon {
 using glsl::BiasParams;
 
 const char* unitName(Unit unit) {
-  return unit == Unit::Metres ? "m" : "";
+  return unit == Unit::Metres ? "m" : unit == Unit::Texels ? "texels" : "";
 }
+
+const char* contentName(MapContent content) {
+  switch (content) {
+    case MapContent::OneLayer:
+      return "one layer";
+    case MapContent::TwoLayers:
+      return "two layers";
+    case MapContent::BackFaces:
+      return "back faces";
+  }
+  return "";
+}
+
+namespace {
+
+// A knob in metres with a default relative to the scene's diagonal.
+BiasKnob metres(const char* name, float share, const char* sentence, float BiasParams::*field) {
+  return {.name = name,
+          .unit = Unit::Metres,
+          .lower = 0.0f,
+          .upper = 1e6f,
+          .defaultValue = share,
+          .defaultOfSceneScale = true,
+          .sentence = sentence,
+          .field = field};
+}
+
+}  // namespace
 
 const std::vector<BiasMethod>& biasMethods() {
   static const std::vector<BiasMethod> methods = {
@@ -49,17 +77,67 @@ const std::vector<BiasMethod>& biasMethods() {
                   .defaultOfSceneScale = true,
                   .sentence = "distance towards the light, added",
                   .field = &BiasParams::slopeOffset}}},
+      {.id = glsl::kBiasNormalOffset,
+       .name = "normal-offset",
+       .sentence = "Moves the receiver along its normal before it is looked up (Holbert 2011).",
+       .knobs = {{.name = "texels",
+                  .unit = Unit::Texels,
+                  .lower = 0.0f,
+                  .upper = 64.0f,
+                  .defaultValue = 1.5f,
+                  .defaultOfSceneScale = false,
+                  .sentence = "distance along the normal, times the sine of its angle to the light",
+                  .field = &BiasParams::normalOffsetTexels}}},
+      {.id = glsl::kBiasCosine,
+       .name = "cosine",
+       .sentence = "A constant weighted by the angle between normal and light (Gautron et al. 2013).",
+       .knobs = {metres("offset", 4e-3f, "distance towards the light where the surface is edge-on",
+                        &BiasParams::cosineOffset)}},
+      {.id = glsl::kBiasReceiverPlane,
+       .name = "receiver-plane",
+       .sentence = "Carries the receiver's depth to the tap along its plane's gradient (Isidoro 2006).",
+       .knobs = {metres("offset", 1e-4f, "distance towards the light, added",
+                        &BiasParams::receiverPlaneOffset)}},
+      {.id = glsl::kBiasSecondDepth,
+       .name = "second-depth",
+       .sentence = "Stores the back faces of solids (Wang & Molnar 1994).",
+       .knobs = {metres("offset", 1e-4f, "distance towards the light, for sheets and contacts",
+                        &BiasParams::secondDepthOffset)},
+       .content = MapContent::BackFaces},
+      {.id = glsl::kBiasMidpoint,
+       .name = "midpoint",
+       .sentence = "Half way between the two nearest layers (Woo 1992).",
+       .knobs = {},
+       .content = MapContent::TwoLayers},
+      {.id = glsl::kBiasDual,
+       .name = "dual",
+       .sentence = "Half way between the two nearest layers, but at most the offset (Weiskopf & Ertl 2003).",
+       .knobs = {metres("offset", 1e-2f, "upper bound of the bias", &BiasParams::dualOffset)},
+       .content = MapContent::TwoLayers},
       {.id = glsl::kBiasAdaptive,
        .name = "adaptive",
        .sentence = "Compares where the texel's ray meets the receiver's plane (Dou et al. 2014).",
-       .knobs = {{.name = "k",
-                  .unit = Unit::One,
-                  .lower = 0.0f,
-                  .upper = 1.0f,
-                  .defaultValue = 1e-4f,
-                  .defaultOfSceneScale = false,
-                  .sentence = "epsilon as a share of the scene's diagonal (the paper's K)",
-                  .field = &BiasParams::adaptiveK}}},
+       .knobs =
+           {{.name = "k",
+             .unit = Unit::One,
+             .lower = 0.0f,
+             .upper = 1.0f,
+             .defaultValue = 1e-4f,
+             .defaultOfSceneScale = false,
+             .sentence =
+                 "epsilon as a share of the scene's diagonal (the paper's K), for all three adaptive methods",
+             .field = &BiasParams::adaptiveK}},
+       .hasEpsilon = true},
+      {.id = glsl::kBiasAdaptiveClamped,
+       .name = "adaptive-clamped",
+       .sentence = "adaptive, never behind the receiver itself (the authors' shaders).",
+       .knobs = {},
+       .hasEpsilon = true},
+      {.id = glsl::kBiasAdaptiveEhm,
+       .name = "adaptive-ehm",
+       .sentence = "adaptive, its epsilon growing as the light grazes (Ehm et al. 2015).",
+       .knobs = {},
+       .hasEpsilon = true},
   };
   return methods;
 }

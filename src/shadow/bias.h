@@ -9,8 +9,8 @@
 
 namespace gnomon {
 
-enum class Unit { Metres, One };
-const char* unitName(Unit unit);  // "m", ""
+enum class Unit { Metres, Texels, One };
+const char* unitName(Unit unit);  // "m", "texels", ""
 
 struct BiasKnob {
   const char* name;  // on the command line --<bias>-<name>, in results params.<name>
@@ -24,11 +24,22 @@ struct BiasKnob {
   float glsl::BiasParams::*field;
 };
 
+// What a map must hold for a method.
+enum class MapContent {
+  OneLayer,   // the nearest depth
+  TwoLayers,  // and the nearest behind it
+  BackFaces,  // the nearest back face of solids, sheets as they are
+};
+
+const char* contentName(MapContent content);  // "one layer", "two layers", "back faces"
+
 struct BiasMethod {
   int id;  // kBias*
   const char* name;
   const char* sentence;  // what it does and where it comes from
   std::vector<BiasKnob> knobs;
+  MapContent content = MapContent::OneLayer;
+  bool hasEpsilon = false;  // takes --epsilon-at
 };
 
 // In the order they are listed and run.

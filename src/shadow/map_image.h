@@ -1,6 +1,8 @@
 #pragma once
-// A planar shadow map on the GPU: an array of D32 layers, drawn once a layer with depth only.
+// A planar shadow map on the GPU: an array of D32 layers, drawn once a layer with depth only, and for
+// two-layer biases a second array with the nearest depth behind the first.
 
+#include "shadow/bias.h"
 #include "shadow/parameterization.h"
 
 #include "shared/shade.glsl"
@@ -17,19 +19,35 @@ enum class CullMode {
 CullMode parseCullMode(const std::string& name);
 const char* cullModeName(CullMode mode);
 
+// How the second layer is found. Both give the same bits where the peel's tolerance is 0.
+enum class SecondLayer {
+  // Depth test "greater than the first layer" against its own depth buffer, MIN blending into a float target:
+  // no texture is
+  // read, and every fragment before the first layer dies in the early depth test.
+  Blend,
+  // Depth peeling as in the paper: a fragment shader throws away what equals the first layer.
+  Peel,
+};
+
 class MapImage {
  public:
   // Throws WorldError where the device cannot hold the map.
-  MapImage(const gpu::Device& device, const FittedMap& fitted);
+  MapImage(const gpu::Device& device, const FittedMap& fitted, MapContent content = MapContent::OneLayer);
 
   const gpu::Image& depth() const { return depth_; }         // D32, layerCount layers
+  const gpu::Image& secondDepth() const { return second_; }  // R32F; only of TwoLayers
   const gpu::Buffer& uniforms() const { return uniforms_; }  // glsl::MapUniforms
+  MapContent content() const { return content_; }
   int layerCount() const { return layerCount_; }
   int kind() const { return kind_; }  // glsl::kMap*
 
  private:
+  friend class MapRenderer;
   gpu::Image depth_;
+  gpu::Image second_;
+  gpu::Image peelDepth_;  // made at the first peel
   gpu::Buffer uniforms_;
+  MapContent content_ = MapContent::OneLayer;
   int layerCount_ = 0;
   int kind_ = 0;
 };
@@ -40,12 +58,19 @@ class MapRenderer {
 
   // `light` decides which solids may be culled: one that holds the light within its bounds shows it back
   // faces only, and is drawn whole.
-  void record(gpu::Commands& commands, const SceneBuffers& scene, const MapImage& map,
-              const LightModel& light, CullMode cull) const;
+  void record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
+              CullMode cull, SecondLayer method = SecondLayer::Blend) const;
 
  private:
-  gpu::GraphicsProgram opaque_;
-  gpu::GraphicsProgram masked_;
+  struct Pair {
+    gpu::GraphicsProgram opaque, masked;
+  };
+  void recordLayer(gpu::Commands& commands, const SceneBuffers& scene, const MapImage& map,
+                   const LightModel& light, CullMode cull, const Pair& programs, int layer,
+                   bool readsFirstLayer) const;
+
+  const gpu::Device& device_;
+  Pair first_, blend_, peel_;
 };
 
 }  // namespace gnomon

@@ -56,24 +56,27 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
                                         {.id = 1, .value = key.diagnose},
                                         {.id = 2, .value = key.mapKind},
                                         {.id = 3, .value = key.layerCount},
-                                        {.id = 4, .value = key.instanced}})}));
+                                        {.id = 4, .value = key.instanced},
+                                        {.id = 5, .value = key.secondLayer}})}));
   return variants_.back()->program;
 }
 
 void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                             const MapImage& map, int method, bool diagnose) {
-  commands.dispatch(
-      program({method, diagnose ? 1 : 0, map.kind(), map.layerCount(), scene.instanced ? 1 : 0}), groupCount_,
-      {},
-      {{glsl::kBindPositions, scene.positions},
-       {glsl::kBindTriangles, scene.triangles},
-       {glsl::kBindInstances, scene.instances},
-       {glsl::kBindMap, map.uniforms()},
-       {glsl::kBindMapDepth, map.depth()},
-       {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
-       {glsl::kBindShade, uniforms_},
-       {glsl::kBindVisibility, visibility_},
-       {glsl::kBindDiagnosis, diagnosis_}});
+  const bool twoLayers = map.content() == MapContent::TwoLayers;
+  commands.dispatch(program({method, diagnose ? 1 : 0, map.kind(), map.layerCount(), scene.instanced ? 1 : 0,
+                             twoLayers ? 1 : 0}),
+                    groupCount_, {},
+                    {{glsl::kBindPositions, scene.positions},
+                     {glsl::kBindTriangles, scene.triangles},
+                     {glsl::kBindInstances, scene.instances},
+                     {glsl::kBindMap, map.uniforms()},
+                     {glsl::kBindMapDepth, map.depth()},
+                     {glsl::kBindSecondDepth, twoLayers ? map.secondDepth() : map.depth()},
+                     {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+                     {glsl::kBindShade, uniforms_},
+                     {glsl::kBindVisibility, visibility_},
+                     {glsl::kBindDiagnosis, diagnosis_}});
 }
 
 RadiancePass::RadiancePass(const gpu::Device& device, int width, int height)

@@ -31,7 +31,7 @@ class VisibilityPass {
  private:
   // Specialization constants of shade_visibility.comp.glsl, in the order of their ids.
   struct VariantKey {
-    int32_t method, diagnose, mapKind, layerCount, instanced;
+    int32_t method, diagnose, mapKind, layerCount, instanced, secondLayer;
     bool operator==(const VariantKey&) const = default;
   };
   struct Variant {

@@ -60,8 +60,9 @@ class CliTest : public ::testing::Test {
 };
 
 TEST_F(CliTest, CompareWritesATableResultsAndPicturesAndNoMessageOfValidation) {
-  const Result result = run(
-      "compare contact --maps spot,directional --size 96 --map-size 64 --repeats 1 -o @/out --json @/r.json");
+  const Result result =
+      run("compare contact --maps spot,directional --biases none,constant,slope,adaptive --size 96 "
+          "--map-size 64 --repeats 1 -o @/out --json @/r.json");
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_NE(result.out.find("bias error"), std::string::npos);

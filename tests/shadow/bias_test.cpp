@@ -37,6 +37,7 @@ PlaneCase planeCase(const ShadowMap& map, const MapSample& sample, float tanAngl
   const PlaneDepth plane = receiverPlaneDepth(map, 0, result.receiver, tap.ray);
   result.meets = !plane.grazing;
   tap.z1 = plane.depth;
+  tap.z2 = 1.0f;
   return result;
 }
 
@@ -132,6 +133,95 @@ TEST_P(Bias, AnEmptyTexelLightsWithEveryMethod) {
   }
 }
 
+// Weiskopf & Ertl 2003: with an offset beyond every gap dual is midpoint, and where half the gap is beyond
+// the offset it is the constant bias; to the bit.
+TEST_P(Bias, MidpointAndConstantAreTheLimitsOfDual) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  size_t decidedByGap = 0, litCount = 0;
+  const auto cases = planeCases(fitted_.map, fitted_, 1 << 14);
+  for (const PlaneCase& c : cases) {
+    Tap tap = c.tap;
+    const float distance = mapDistance(fitted_.map, 0, tap.ray, tap.z1);
+    const float gap = 2.0f * unit(random);  // metres
+    tap.z1 = mapDepth(fitted_.map, 0,
+                      tap.ray.origin + tap.ray.dir * std::max(distance - 0.5f * unit(random), 0.0f));
+    tap.z2 = mapDepth(fitted_.map, 0, tap.ray.origin + tap.ray.dir * (distance + gap));
+    const bool midpoint = lit(kBiasMidpoint, fitted_.map, params_, c.receiver, tap);
+    params_.dualOffset = 1e6f;
+    EXPECT_EQ(lit(kBiasDual, fitted_.map, params_, c.receiver, tap), midpoint);
+
+    params_.dualOffset = 0.25f;
+    params_.constantOffset = 0.25f;
+    const bool dual = lit(kBiasDual, fitted_.map, params_, c.receiver, tap);
+    if (halfLayerGap(fitted_.map, tap) > 0.25f) {
+      EXPECT_EQ(dual, lit(kBiasConstant, fitted_.map, params_, c.receiver, tap));
+    } else {
+      EXPECT_EQ(dual, midpoint);
+      ++decidedByGap;
+    }
+    litCount += dual ? 1 : 0;
+  }
+  EXPECT_GT(decidedByGap, cases.size() / 20);
+  EXPECT_GT(litCount, cases.size() / 20);
+  EXPECT_LT(litCount, cases.size() - cases.size() / 20);
+}
+
+// In a planar map a plane's depth is affine in (u, v), so its gradient leads to the very point the adaptive
+// bias intersects.
+TEST_P(Bias, ReceiverPlaneNeverShadowsAPlaneByItself) {
+  size_t acne = 0;
+  const auto cases = planeCases(fitted_.map, fitted_, 1 << 14);
+  for (const PlaneCase& c : cases)
+    acne += lit(kBiasReceiverPlane, fitted_.map, params_, c.receiver, c.tap) ? 0 : 1;
+  // The rest are planes so steep that a ray one texel on does not meet them between near and far.
+  EXPECT_LE(static_cast<double>(acne) / static_cast<double>(cases.size()), 0.01);
+}
+
+TEST_P(Bias, ClampingLightsWhateverAdaptiveLights) {
+  for (const PlaneCase& c : planeCases(fitted_.map, fitted_, 1 << 12)) {
+    Tap tap = c.tap;
+    tap.z1 *= 0.99f;
+    if (lit(kBiasAdaptive, fitted_.map, params_, c.receiver, tap)) {
+      EXPECT_TRUE(lit(kBiasAdaptiveClamped, fitted_.map, params_, c.receiver, tap));
+      EXPECT_TRUE(lit(kBiasAdaptiveEhm, fitted_.map, params_, c.receiver, tap));
+    }
+  }
+}
+
+TEST_P(Bias, CosineIsNothingWhereTheSurfaceFacesTheLight) {
+  for (const MapSample& sample : samplesOf(fitted_, 512, 18)) {
+    PlaneCase c = planeCase(fitted_.map, sample, 0.0f, 0.0f);
+    c.receiver.normalL = -c.tap.ray.dir;
+    const float distance = glm::dot(c.receiver.posL - c.tap.ray.origin, c.tap.ray.dir);
+    if (distance < 0.2f) continue;
+    params_.cosineOffset = 1.0f;
+    c.tap.z1 = mapDepth(fitted_.map, 0, c.receiver.posL - c.tap.ray.dir * 0.05f);
+    EXPECT_FALSE(lit(kBiasCosine, fitted_.map, params_, c.receiver, c.tap));
+    c.receiver.normalL = facingNormal(c.tap.ray.dir, 30.0f, 1.0f);
+    EXPECT_TRUE(lit(kBiasCosine, fitted_.map, params_, c.receiver, c.tap));
+  }
+}
+
+TEST_P(Bias, NormalOffsetMovesTexelsAlongTheNormal) {
+  for (const MapSample& sample : samplesOf(fitted_, 512, 19)) {
+    if (std::abs(sample.uv.x - 0.5f) > 0.45f || std::abs(sample.uv.y - 0.5f) > 0.45f)
+      continue;  // moved off the map
+    const Ray ray = mapTexelRay(fitted_.map, 0, sample.uv);
+    const Receiver receiver{sample.posL, facingNormal(ray.dir, 1.0f, 2.0f)};  // 45 degrees
+    params_.normalOffsetTexels = 2.0f;
+    const Receiver moved = normalOffsetReceiver(fitted_.map, params_, receiver);
+    const vec3 by = moved.posL - receiver.posL;
+    EXPECT_GT(glm::dot(by, receiver.normalL), 0.0f);
+    EXPECT_NEAR(glm::length(by - receiver.normalL * glm::dot(by, receiver.normalL)), 0.0f, 1e-5f);
+    // Two texels times sin 45: as far as 1.4 texels across the map, to the obliqueness of rays off the axis.
+    const Ray next = mapTexelRay(fitted_.map, 0, vec2(sample.uv.x + 1.0f / 256.0f, sample.uv.y));
+    const float along = glm::dot(sample.posL - ray.origin, ray.dir);
+    const float texel = glm::length((next.origin + next.dir * along) - (ray.origin + ray.dir * along));
+    EXPECT_NEAR(glm::length(by) / texel, std::sqrt(2.0f), 0.01f);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, Bias, ::testing::Bool(),
                          [](const auto& tested) { return tested.param ? "Spot" : "Directional"; });
 
@@ -175,10 +265,12 @@ TEST_F(BiasOnTheGpu, VerdictsEqualTheCpuForEveryMethod) {
   std::vector<BiasQuery> queries;
   for (const MapSample& sample : samplesOf(fitted, gpu::kKernelInputCount, 16)) {
     PlaneCase c = planeCase(fitted.map, sample, std::tan(unit(random) * 1.57f), unit(random) * 6.0f);
-    BiasQuery query{.method = static_cast<int>(queries.size() % 5),  // 4 is no method
-                    .params = defaultBiasParams(fitted.map.sceneScale),
-                    .receiver = c.receiver,
-                    .z1 = c.tap.z1};
+    BiasQuery query{
+        .method = static_cast<int>(queries.size() % (biasMethods().size() + 1)),  // the last is no method
+        .params = defaultBiasParams(fitted.map.sceneScale),
+        .receiver = c.receiver,
+        .z1 = c.tap.z1,
+        .z2 = c.tap.z1 + unit(random) * 0.1f};
     query.params.epsilonAt = static_cast<int>(queries.size() % 3);
     // Near the decision of each method, on either side.
     query.z1 += (unit(random) - 0.5f) * 1e-3f;

@@ -42,6 +42,10 @@ struct Rendered {
   std::unique_ptr<MapImage> image;
 };
 Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map,
-                int pictureSide, int mapSide, CullMode cull);
+                int pictureSide, int mapSide, CullMode cull, MapContent content = MapContent::OneLayer);
+
+// The map of `r` with other content, or drawn another way.
+std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, MapContent content,
+                               CullMode cull, SecondLayer method = SecondLayer::Blend);
 
 }  // namespace gnomon::test

@@ -44,18 +44,21 @@ struct BiasQuery {
   BiasParams params;
   Receiver receiver;
   float z1;
+  float z2;
 };
 
 // 0 shadow, 1 lit, 2 no such method.
 GNOMON_FN uint answerBias(ShadowMap map, BiasQuery query) {
-  MapPoint point = mapProject(map, query.receiver.posL);
+  Receiver receiver = biasReceiver(query.method, map, query.params, query.receiver);
+  MapPoint point = mapProject(map, receiver.posL);
   Tap tap;
   tap.layer = point.layer;
   tap.texel = mapTexel(map, point.uv);
   tap.ray = mapTexelRay(map, tap.layer, mapTexelCenter(map, tap.texel));
   tap.z1 = query.z1;
+  tap.z2 = query.z2;
   bool known;
-  bool lit = biasLit(query.method, map, query.params, query.receiver, tap, known);
+  bool lit = biasLit(query.method, map, query.params, receiver, tap, known);
   return known ? (lit ? 1u : 0u) : 2u;
 }
 

@@ -140,5 +140,73 @@ TEST_F(MapImageTest, HolesOfMasksAreHolesOfTheMap) {
   EXPECT_LT(wrong, holes / 20);  // at the rims of holes
 }
 
+// The paper's peel and the blend give the same two layers, to the bit, on every generated scene, culled and
+// not.
+TEST_F(MapImageTest, BlendingAndPeelingGiveTheSameTwoLayers) {
+  for (const GeneratedScene& generated : generatedScenes()) {
+    for (const Parameterization* map : parameterizations()) {
+      const test::Rendered r = test::render(device(), generated.name, *map, 64, 192, CullMode::None);
+      for (const CullMode cull : {CullMode::None, CullMode::Solids}) {
+        const auto blended = test::draw(device(), r, MapContent::TwoLayers, cull, SecondLayer::Blend);
+        const auto peeled = test::draw(device(), r, MapContent::TwoLayers, cull, SecondLayer::Peel);
+        EXPECT_EQ(gpu::download(device(), blended->depth()), gpu::download(device(), peeled->depth()));
+        EXPECT_EQ(gpu::download(device(), blended->secondDepth()),
+                  gpu::download(device(), peeled->secondDepth()))
+            << generated.name << " " << map->name();
+        const auto z1 = gpu::downloadAs<float>(device(), blended->depth());
+        const auto z2 = gpu::downloadAs<float>(device(), blended->secondDepth());
+        for (size_t i = 0; i < z1.size(); ++i) ASSERT_TRUE(z2[i] > z1[i] || z2[i] == 1.0f);
+      }
+    }
+  }
+}
+
+// The second layer is the second hit of the texel's ray, but near the edges of what is hit.
+TEST_F(MapImageTest, TheSecondLayerIsTheSecondHitOfItsRay) {
+  const test::Rendered r =
+      test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
+  const auto image = test::draw(device(), r, MapContent::TwoLayers, CullMode::None);
+  const auto z1 = gpu::downloadAs<float>(device(), image->depth());
+  const auto z2 = gpu::downloadAs<float>(device(), image->secondDepth());
+  size_t compared = 0, off = 0;
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 256; ++x) {
+      const RayD ray = texelRay(r.fitted, x, y);
+      const auto first = r.tracer->firstHit(ray);
+      if (!first || isNearPrimitiveEdge(*r.tracer, r.fitted, x, y)) continue;
+      // A thousandth of a metre on: less than any solid of this scene is thick but at its rims and contacts.
+      const RayD rest{ray.origin + ray.dir * (first->distance + 1e-3), ray.dir};
+      const auto second = r.tracer->firstHit(rest);
+      float expected = 1.0f;
+      if (second) {
+        const glm::dvec3 hitW = rest.origin + rest.dir * second->distance;
+        expected = glsl::mapDepth(r.fitted.map, 0, glsl::lightFromWorld(r.fitted.frame, glm::vec3(hitW)));
+      }
+      ++compared;
+      const size_t i = static_cast<size_t>(y) * 256 + x;
+      if (std::abs(z2[i] - std::min(expected, 1.0f)) > 1e-4f) ++off;
+      ASSERT_LE(z1[i], z2[i]);
+    }
+  }
+  EXPECT_GT(compared, size_t{50000});
+  EXPECT_LT(off, compared / 100);
+}
+
+// Wang & Molnar 1994: nothing that a solid's lit side could be compared with is in the map, so solids alone
+// show no acne.
+TEST_F(MapImageTest, BackFacesLieBehindFrontFaces) {
+  const test::Rendered r =
+      test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
+  const auto back = test::draw(device(), r, MapContent::BackFaces, CullMode::Solids);
+  const auto a = gpu::downloadAs<float>(device(), r.image->depth());
+  const auto b = gpu::downloadAs<float>(device(), back->depth());
+  size_t behind = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    EXPECT_LE(a[i], b[i]);
+    behind += a[i] < b[i] ? 1 : 0;
+  }
+  EXPECT_GT(behind, a.size() / 20);
+}
+
 }  // namespace
 }  // namespace gnomon

@@ -18,11 +18,17 @@ struct Scored {
 
 class VisibilityPassTest : public gpu::GpuTest {
  protected:
-  Scored score(const test::Rendered& r, int method) {
+  // With the map that the method needs.
+  Scored score(const test::Rendered& r, const BiasMethod& method) {
+    const auto image = test::draw(device(), r, method.content, CullMode::Solids);
+    return score(r, *image, method.id);
+  }
+
+  Scored score(const test::Rendered& r, const MapImage& image, int method) {
     VisibilityPass pass(device(), r.view.width, r.view.height);
     pass.setUniforms(shadeUniforms(r.view, r.light, defaultBiasParams(r.fitted.map.sceneScale)));
     gpu::Commands commands(device(), "visibility");
-    pass.record(commands, r.buffers, *r.gbuffer, *r.image, method, true);
+    pass.record(commands, r.buffers, *r.gbuffer, image, method, true);
     commands.submitAndWait();
     const auto diagnosis = gpu::downloadAs<glsl::PixelDiagnosis>(device(), pass.diagnosis());
     std::vector<Verdict> verdicts(diagnosis.size(), Verdict::NotAsked);
@@ -67,9 +73,9 @@ class VisibilityPassTest : public gpu::GpuTest {
 TEST_F(VisibilityPassTest, OnSlopeNoneHasPlentyOfAcneAndAdaptiveNone) {
   for (const Parameterization* map : parameterizations()) {
     const test::Rendered r = test::render(device(), "slope", *map, 512, 512, CullMode::Solids);
-    const Scored none = score(r, glsl::kBiasNone);
+    const Scored none = score(r, findBias("none"));
     EXPECT_GT(none.labels.count(Label::Acne), none.scored / 5) << map->name();
-    const Scored adaptive = score(r, glsl::kBiasAdaptive);
+    const Scored adaptive = score(r, findBias("adaptive"));
     EXPECT_EQ(adaptive.labels.count(Label::Acne), 0u) << map->name();
     EXPECT_EQ(adaptive.labels.count(Label::Leak), 0u) << map->name();
   }
@@ -80,7 +86,7 @@ TEST_F(VisibilityPassTest, LabelsAddUpToTheScoredPixelsOnEveryScene) {
     const test::Rendered r =
         test::render(device(), scene, spotParameterization(), 128, 128, CullMode::Solids);
     for (const BiasMethod& method : biasMethods()) {
-      const Scored result = score(r, method.id);
+      const Scored result = score(r, method);
       size_t sum = 0;
       for (int label = 1; label < kLabelCount; ++label) sum += result.labels.counts[label];
       EXPECT_EQ(sum, r.receivers.scored) << scene << " " << method.name;
@@ -97,7 +103,7 @@ TEST_F(VisibilityPassTest, TheConcaveCornerHasAcneAndNoEdges) {
   for (const int mapSide : {24, 29, 37}) {
     const test::Rendered r =
         test::render(device(), "corner", spotParameterization(), 256, mapSide, CullMode::Solids);
-    const Scored result = score(r, glsl::kBiasAdaptive);
+    const Scored result = score(r, findBias("adaptive"));
     EXPECT_EQ(result.labels.count(Label::EdgeShadow), 0u) << mapSide;
     EXPECT_EQ(result.labels.count(Label::EdgeLight), 0u) << mapSide;
     acne += result.labels.count(Label::Acne);
@@ -108,7 +114,7 @@ TEST_F(VisibilityPassTest, TheConcaveCornerHasAcneAndNoEdges) {
 TEST_F(VisibilityPassTest, AnUnknownMethodIsMarkedForMagenta) {
   const test::Rendered r =
       test::render(device(), "contact", spotParameterization(), 64, 64, CullMode::Solids);
-  const Scored result = score(r, 999);
+  const Scored result = score(r, *r.image, 999);
   const auto marked = std::ranges::count(result.visibility, glsl::kUnknownVisibility);
   EXPECT_GT(marked, 100);
 }
@@ -117,11 +123,11 @@ TEST_F(VisibilityPassTest, GoldenPictures) {
   const test::Rendered r =
       test::render(device(), "contact", spotParameterization(), 256, 128, CullMode::Solids);
   for (const BiasMethod& method : biasMethods())
-    compareWithGolden(std::string("contact_spot_") + method.name, score(r, method.id).visibility, 256);
+    compareWithGolden(std::string("contact_spot_") + method.name, score(r, method).visibility, 256);
   const test::Rendered d =
       test::render(device(), "lshape", directionalParameterization(), 256, 64, CullMode::Solids);
   for (const BiasMethod& method : biasMethods())
-    compareWithGolden(std::string("lshape_directional_") + method.name, score(d, method.id).visibility, 256);
+    compareWithGolden(std::string("lshape_directional_") + method.name, score(d, method).visibility, 256);
 }
 
 }  // namespace

@@ -31,5 +31,20 @@ GNOMON_FN bool adaptiveLit(ShadowMap map, BiasParams params, Receiver receiver, 
   return occluder.depth - adaptiveEpsilon(map, params, receiver, tap, occluder.posL) <= tap.z1;
 }
 
+// The authors' own shaders never take a depth behind the receiver's, which the text does not say.
+GNOMON_FN bool adaptiveClampedLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
+  PlaneDepth occluder = receiverPlaneDepth(map, tap.layer, receiver, tap.ray);
+  float depth = min(occluder.depth, mapDepth(map, tap.layer, receiver.posL));
+  return depth - adaptiveEpsilon(map, params, receiver, tap, occluder.posL) <= tap.z1;
+}
+
+// Ehm, Ederer, Klein, Nimscheck, "Adaptive Depth Bias for Soft Shadows", WSCG 2015: epsilon grows as the light grazes.
+GNOMON_FN bool adaptiveEhmLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
+  PlaneDepth occluder = receiverPlaneDepth(map, tap.layer, receiver, tap.ray);
+  float facing = dot(receiver.normalL, tap.ray.dir);
+  float grow = min(1.0f / max(facing * facing, 1e-6f), 100.0f);
+  return occluder.depth - adaptiveEpsilon(map, params, receiver, tap, occluder.posL) * grow <= tap.z1;
+}
+
 GNOMON_SHARED_END
 #endif

@@ -1,4 +1,4 @@
-// Constant bias, in metres: the receiver is moved towards the light along the texel's direction before the comparison.
+// Constant bias, in metres: the stored surface is moved away from the light along the texel's ray.
 // Williams 1978; Reeves, Salesin, Cook, "Rendering Antialiased Shadows with Depth Maps", 1987.
 #ifndef GNOMON_BIAS_CONSTANT_GLSL
 #define GNOMON_BIAS_CONSTANT_GLSL
@@ -7,6 +7,13 @@
 
 GNOMON_SHARED_BEGIN
 
+// lit  <=>  the receiver, at its depth on the texel's ray, lies within `offset` metres behind what the texel stores.
+GNOMON_FN bool litWithOffset(ShadowMap map, Receiver receiver, Tap tap, float offset) {
+  float depth = mapDepth(map, tap.layer, receiver.posL);
+  float distance_ = mapDistance(map, tap.layer, tap.ray, depth);
+  return distance_ <= mapDistance(map, tap.layer, tap.ray, tap.z1) + offset;
+}
+
 // The depth of a point `offset` metres nearer the light. A point that would pass the near end stays there.
 GNOMON_FN float depthTowardsLight(ShadowMap map, int layer, vec3 posL, Ray ray, float offset) {
   float room = dot(posL - ray.origin, ray.dir);
@@ -14,7 +21,7 @@ GNOMON_FN float depthTowardsLight(ShadowMap map, int layer, vec3 posL, Ray ray, 
 }
 
 GNOMON_FN bool constantLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  return depthTowardsLight(map, tap.layer, receiver.posL, tap.ray, params.constantOffset) <= tap.z1;
+  return litWithOffset(map, receiver, tap, params.constantOffset);
 }
 
 GNOMON_SHARED_END

@@ -1,0 +1,29 @@
+// Receiver-plane bias: the receiver's depth, carried to the tap along the gradient of its plane in the map.
+// Isidoro, "Shadow Mapping: GPU-Based Tips and Techniques", GDC 2006.
+//
+// In a planar map the depth of a plane is affine in (u, v), and this is the adaptive bias's intersection by another way.
+#ifndef GNOMON_BIAS_RECEIVER_PLANE_GLSL
+#define GNOMON_BIAS_RECEIVER_PLANE_GLSL
+
+#include "shared/bias/constant.glsl"
+#include "shared/lang.glsl"
+
+GNOMON_SHARED_BEGIN
+
+GNOMON_FN bool receiverPlaneLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
+  float depth = depthTowardsLight(map, tap.layer, receiver.posL, tap.ray, params.receiverPlaneOffset);
+  MapPoint point = mapProject(map, receiver.posL);
+  if (point.layer != tap.layer) return depth <= tap.z1;  // a tap across an edge of the map: no gradient leads there
+  vec2 uv = point.uv;
+  float texel = 1.0f / float(map.side);
+  PlaneDepth here = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, uv));
+  PlaneDepth right = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, vec2(uv.x + texel, uv.y)));
+  PlaneDepth below = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, vec2(uv.x, uv.y + texel)));
+  vec2 center = mapTexelCenter(map, tap.texel);
+  float change = (right.depth - here.depth) * ((center.x - uv.x) / texel) +
+                 (below.depth - here.depth) * ((center.y - uv.y) / texel);
+  return depth + change <= tap.z1;
+}
+
+GNOMON_SHARED_END
+#endif

@@ -1,0 +1,17 @@
+// Second depth: the map stores the back faces of solids (and sheets as they are), which no lit surface is near.
+// Wang, Molnar, "Second-Depth Shadow Mapping", TR94-019, University of North Carolina, 1994.
+#ifndef GNOMON_BIAS_SECOND_DEPTH_GLSL
+#define GNOMON_BIAS_SECOND_DEPTH_GLSL
+
+#include "shared/bias/constant.glsl"
+#include "shared/lang.glsl"
+
+GNOMON_SHARED_BEGIN
+
+// Sheets need an offset still.
+GNOMON_FN bool secondDepthLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
+  return litWithOffset(map, receiver, tap, params.secondDepthOffset);
+}
+
+GNOMON_SHARED_END
+#endif
