@@ -7,12 +7,21 @@
 
 layout(scalar, binding = kBindPositions) readonly buffer Positions { vec3 positions[]; };
 layout(scalar, binding = kBindTriangles) readonly buffer Triangles { uvec3 triangles[]; };
+layout(binding = kBindPrimitiveIds) uniform utexture2D primitiveIds;
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
 
 // 0: every mesh stands in world space, and no matrix need be read. On lavapipe a gather from a storage buffer runs lane by
 // lane (measured: the matrix and its struct's other fields were 40% of the visibility pass), so a pixel makes four: a
 // triangle and three corners.
 layout(constant_id = 4) const int kInstanced = 1;
+
+PrimitiveId fetchPrimitive(ivec2 pixel) {
+  uvec2 named = texelFetch(primitiveIds, pixel, 0).xy;
+  PrimitiveId id;
+  id.instancePlusOne = named.x;
+  id.triangle = named.y;
+  return id;
+}
 
 // In the world.
 SurfacePoint fetchSurface(CameraView camera, ivec2 pixel, PrimitiveId id) {

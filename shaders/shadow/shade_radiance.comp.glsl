@@ -8,7 +8,6 @@ layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 
 layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
 layout(scalar, binding = kBindNormals) readonly buffer Normals { vec3 normals[]; };
-layout(binding = kBindPrimitiveIds) uniform utexture2D primitiveIds;
 layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindVisibility) readonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindRadiance) writeonly buffer Radiance { vec3 radiance[]; };
@@ -57,10 +56,7 @@ void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (pixel.x >= shade.camera.width || pixel.y >= shade.camera.height) return;
   uint index = uint(pixel.y * shade.camera.width + pixel.x);
-  uvec2 named = texelFetch(primitiveIds, pixel, 0).xy;
-  PrimitiveId id;
-  id.instancePlusOne = named.x;
-  id.triangle = named.y;
+  PrimitiveId id = fetchPrimitive(pixel);
   float visible = visibility[index];
   vec3 color = vec3(0.0f);
   if (id.instancePlusOne != 0u)

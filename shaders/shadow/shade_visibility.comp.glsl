@@ -18,7 +18,6 @@ layout(constant_id = 5) const int kSecondLayer = 0;  // 1: the method reads z2
 
 layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
 layout(binding = kBindSecondDepth) uniform texture2DArray secondDepthLayers;
-layout(binding = kBindPrimitiveIds) uniform utexture2D primitiveIds;
 layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagnosis diagnosis[]; };
@@ -46,10 +45,7 @@ void main() {
   if (pixel.x >= shade.camera.width || pixel.y >= shade.camera.height) return;
   uint index = uint(pixel.y * shade.camera.width + pixel.x);
 
-  uvec2 named = texelFetch(primitiveIds, pixel, 0).xy;
-  PrimitiveId id;
-  id.instancePlusOne = named.x;
-  id.triangle = named.y;
+  PrimitiveId id = fetchPrimitive(pixel);
   uint flags = 0u;
   uint texelWord = 0u;
   float result = 1.0f;

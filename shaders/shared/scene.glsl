@@ -16,7 +16,8 @@ const int kBindMaterials = 4;
 const int kBindTextures = 5;
 const int kBindTexels = 6;
 const int kBindNormals = 7;
-const int kBindFirstFree = 8;  // a shader's own bindings start here
+const int kBindPrimitiveIds = 8;  // the G-buffer
+const int kBindFirstFree = 9;  // a shader's own bindings start here
 
 struct SceneInstance {
   mat4 worldFromMesh;

@@ -10,13 +10,12 @@
 
 GNOMON_SHARED_BEGIN
 
-const int kBindMapDepth = kBindFirstFree;  // the map's layers
-const int kBindPrimitiveIds = kBindFirstFree + 1;
-const int kBindShade = kBindFirstFree + 2;       // ShadeUniforms
-const int kBindVisibility = kBindFirstFree + 3;  // float a pixel
-const int kBindDiagnosis = kBindFirstFree + 4;   // PixelDiagnosis a pixel
-const int kBindRadiance = kBindFirstFree + 5;    // vec3 a pixel
-const int kBindSecondDepth = kBindFirstFree + 6;  // the second layers
+const int kBindMapDepth = kBindFirstFree;         // the map's layers
+const int kBindSecondDepth = kBindFirstFree + 1;  // the second layers
+const int kBindShade = kBindFirstFree + 2;        // ShadeUniforms
+const int kBindVisibility = kBindFirstFree + 3;   // float a pixel
+const int kBindDiagnosis = kBindFirstFree + 4;    // PixelDiagnosis a pixel
+const int kBindRadiance = kBindFirstFree + 5;     // vec3 a pixel
 const int kShadeGroupSide = 8;                    // pixels; the work group is square
 
 struct ShadeUniforms {

@@ -1,6 +1,7 @@
 // Nothing half-written is left under a final name, and nothing beside it.
 #include "base/file.h"
 #include "base/error.h"
+#include "tests/base/temporary_folder.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -14,15 +15,11 @@ namespace fs = std::filesystem;
 
 class FileTest : public ::testing::Test {
  protected:
-  FileTest() {
-    std::string name = (fs::temp_directory_path() / "gnomon-file-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~FileTest() override { fs::remove_all(folder_); }
   size_t fileCount() const {
     return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(FileTest, AnErrorWhileWritingLeavesTheOldFileAndNothingElse) {

@@ -2,6 +2,7 @@
 #include "base/image.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "tests/base/temporary_folder.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -16,12 +17,8 @@ namespace fs = std::filesystem;
 
 class ImageTest : public ::testing::Test {
  protected:
-  ImageTest() {
-    std::string name = (fs::temp_directory_path() / "gnomon-image-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~ImageTest() override { fs::remove_all(folder_); }
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(ImageTest, ExrKeepsEveryFloat) {

@@ -1,5 +1,6 @@
 // The program: exit codes, one clear line for every mistake, and files that are whole or absent.
 #include "base/file.h"
+#include "tests/base/temporary_folder.h"
 
 #include <sys/wait.h>
 
@@ -22,12 +23,6 @@ struct Result {
 
 class CliTest : public ::testing::Test {
  protected:
-  CliTest() {
-    std::string name = (fs::temp_directory_path() / "gnomon-cli-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~CliTest() override { fs::remove_all(folder_); }
-
   // `@` in the arguments stands for this test's folder.
   Result run(std::string arguments) const {
     for (size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@'))
@@ -56,7 +51,8 @@ class CliTest : public ::testing::Test {
     return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(CliTest, CompareWritesATableResultsAndPicturesAndNoMessageOfValidation) {

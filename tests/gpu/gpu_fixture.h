@@ -4,17 +4,19 @@
 
 #include "base/file.h"
 #include "gpu/commands.h"
+#include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace gnomon::gpu {
+
+using test::TemporaryFolder;
 
 class GpuTest : public ::testing::Test {
  protected:
@@ -70,25 +72,5 @@ inline ShaderSource testShader(const std::string& name, const std::filesystem::p
 inline ShaderSource inlineShader(const std::string& path, const std::string& text) {
   return {.path = path, .overrides = {{path, text}}};
 }
-
-// An empty folder of this test's own, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "gnomon-test-XXXXXX").string();
-    if (!::mkdtemp(name.data())) ADD_FAILURE() << "no temporary folder like " << name;
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code failure;
-    std::filesystem::remove_all(path_, failure);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace gnomon::gpu
