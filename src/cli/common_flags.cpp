@@ -98,6 +98,10 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
     maps += fmt::format("{}{} ({})", maps.empty() ? "" : ", ", map->name(), map->sentence());
   for (const BiasMethod& method : biasMethods())
     biases += fmt::format("{}{}", biases.empty() ? "" : ", ", method.name);
+  std::string sentences = "Biases:\n";
+  for (const BiasMethod& method : biasMethods())
+    sentences += fmt::format("  {:<17} {}\n", method.name, method.sentence);
+  verb.footer(sentences);
   verb.add_option("--maps", flags.maps, "comma-separated: " + maps)->capture_default_str();
   verb.add_option("--biases", flags.biases, fmt::format("comma-separated, or all: {}", biases))
       ->capture_default_str();

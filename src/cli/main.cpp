@@ -20,6 +20,12 @@ int parseAndRun(int argc, char** argv) {
   CLI::App app("Gnomon, a shadow laboratory for point lights", "gnomon");
   app.set_version_flag("--version", gnomonVersion());
   app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done; 1 the world failed (file, device, memory); 2 wrong usage; 3 a --fail-if was "
+      "crossed.\n"
+      "Environment: GNOMON_DEVICE as --device, GNOMON_VALIDATION=1 turns the validation layers on, "
+      "GNOMON_CACHE_DIR holds "
+      "compiled shaders (empty: no cache).");
   app.option_defaults()->always_capture_default(false);
   std::vector<std::pair<const char*, Run>> verbs = {{"compare", addCompareVerb(app)},
                                                     {"render", addRenderVerb(app)},

@@ -38,7 +38,7 @@ GNOMON_FN bool adaptiveClampedLit(ShadowMap map, BiasParams params, Receiver rec
   return depth - adaptiveEpsilon(map, params, receiver, tap, occluder.posL) <= tap.z1;
 }
 
-// Ehm, Ederer, Klein, Nimscheck, "Adaptive Depth Bias for Soft Shadows", WSCG 2015: epsilon grows as the light grazes.
+// Ehm et al., WSCG 2015: epsilon grows as the light grazes.
 GNOMON_FN bool adaptiveEhmLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
   PlaneDepth occluder = receiverPlaneDepth(map, tap.layer, receiver, tap.ray);
   float facing = dot(receiver.normalL, tap.ray.dir);
