@@ -167,6 +167,26 @@ TEST_P(Bias, MidpointAndConstantAreTheLimitsOfDual) {
   EXPECT_LT(litCount, cases.size() - cases.size() / 20);
 }
 
+// Equation 2 of Weiskopf & Ertl 2003: the shadowing surface stands half way between the layers.
+TEST_P(Bias, MidpointIsHalfWayBetweenTheLayers) {
+  size_t tried = 0;
+  for (const PlaneCase& c : planeCases(fitted_.map, fitted_, 4096)) {
+    const Ray ray = c.tap.ray;
+    const float at = mapDistance(fitted_.map, 0, ray, mapDepth(fitted_.map, 0, c.receiver.posL));
+    const float length = mapDistance(fitted_.map, 0, ray, 1.0f);
+    const float gap = 0.5f;  // metres
+    if (at < gap || at + gap > length) continue;
+    for (const float share : {0.45f, 0.55f}) {  // of the gap, before the receiver
+      Tap tap = c.tap;
+      tap.z1 = mapDepth(fitted_.map, 0, ray.origin + ray.dir * (at - share * gap));
+      tap.z2 = mapDepth(fitted_.map, 0, ray.origin + ray.dir * (at - share * gap + gap));
+      EXPECT_EQ(lit(kBiasMidpoint, fitted_.map, params_, c.receiver, tap), share < 0.5f);
+    }
+    ++tried;
+  }
+  EXPECT_GT(tried, size_t{500});
+}
+
 // In a planar map a plane's depth is affine in (u, v), so its gradient leads to the very point the adaptive
 // bias intersects.
 TEST_P(Bias, ReceiverPlaneNeverShadowsAPlaneByItself) {
