@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "cli/verbs.h"
 #include "gpu/shader_compiler.h"
+#include "lab/maps.h"
 
 #include <cmath>
 #include <limits>
@@ -35,12 +36,6 @@ std::string knobHelp(const BiasMethod& method, const BiasKnob& knob) {
   const std::string unit = *unitName(knob.unit) != '\0' ? fmt::format(" [{}]", unitName(knob.unit)) : "";
   return fmt::format("{}: {}{}; default {:g}{}", method.name, knob.sentence, unit, knob.defaultValue,
                      knob.defaultOfSceneScale ? " of the scene's diagonal" : "");
-}
-
-int layersOf(const std::vector<const Parameterization*>& maps) {
-  int most = 1;
-  for (const Parameterization* map : maps) most = std::max(most, map->layerCount());
-  return most;
 }
 
 }  // namespace
@@ -132,16 +127,10 @@ CompareOptions compareOptions(const MethodFlags& flags) {
   options.cull = parseCullMode(flags.cull);
   options.epsilonAt = parseEpsilonAt(flags.epsilonAt);
   options.mapSide = flags.mapSize;
-  if (flags.mapTexels != 0) {
-    if (flags.mapTexels < 1)
-      throw UsageError(fmt::format("--map-texels {}: must be positive", flags.mapTexels));
-    options.mapSide = static_cast<int>(
-        std::lround(std::sqrt(static_cast<double>(flags.mapTexels) / layersOf(options.maps))));
-  }
-  if (options.mapSide < 2 || options.mapSide > 16384)
-    throw UsageError(fmt::format(
-        "a map's side of {} texels is outside 2..16384; choose another --map-size or --map-texels",
-        options.mapSide));
+  options.mapTexels = flags.mapTexels;
+  if (flags.mapTexels < 0)
+    throw UsageError(fmt::format("--map-texels {}: must be positive", flags.mapTexels));
+  for (const Parameterization* map : options.maps) mapSideOf(options, *map);
   for (const BiasMethod& method : biasMethods()) {
     for (const BiasKnob& knob : method.knobs) {
       const auto found = flags.knobs.find(knobFlag(method, knob));

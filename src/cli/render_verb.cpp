@@ -44,9 +44,11 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
     const std::vector<float> truth = truthVisibility(exact.receivers, exact.truth);
     return {visibilityPicture(exact.receivers, truth), oneChannel(session, truth), {"Y"}};
   }
-  const DrawnMap map =
-      drawMap(session, passes.map, fitMap(session, parameterization, exact, options.mapSide).fitted, exact,
-              bias.content, options.cull);
+  const DrawnMap map = drawMap(
+      session, passes.map,
+      fitMap(session, parameterization, exact, mapSideOf(options, parameterization), options.mapOptions)
+          .fitted,
+      exact, bias.content, options.cull);
   if (show == "depth") {
     const ImageF metres = depthInMetres(session, map);
     return {depthPicture(metres), metres, {"metres"}};
@@ -56,8 +58,9 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
     return {
         visibilityPicture(exact.receivers, judged.visibility), oneChannel(session, judged.visibility), {"Y"}};
   if (show == "labels") {
-    const std::string title = fmt::format("{} {}, {} x {} texels", parameterization.name(), bias.name,
-                                          options.mapSide, options.mapSide);
+    const std::string title =
+        fmt::format("{} {}, {} x {} texels", parameterization.name(), bias.name,
+                    mapSideOf(options, parameterization), mapSideOf(options, parameterization));
     std::vector<float> numbers;
     for (const Label label : judged.labels.labels) numbers.push_back(static_cast<float>(label));
     return {labelPicture(exact.receivers, exact.truth, judged.labels, title),

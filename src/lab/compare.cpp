@@ -1,5 +1,6 @@
 #include "lab/compare.h"
 
+#include "base/error.h"
 #include "base/progress.h"
 #include "lab/pictures.h"
 
@@ -35,8 +36,8 @@ Row rowFor(const Parameterization& map, const BiasMethod& bias, const glsl::Bias
   const LabelImage& labels = judged.labels;
   Row row;
   row.map = map.name();
-  row.mapSide = options.mapSide;
-  row.layers = map.layerCount();
+  row.mapSide = mapSideOf(options, map);
+  row.layers = map.layerCount(options.mapOptions);
   row.bias = bias.name;
   for (const BiasKnob& knob : bias.knobs) {
     row.knobs.emplace_back(knob.name, static_cast<double>(params.*knob.field));
@@ -157,6 +158,19 @@ void timeRows(const Session& session, Passes& passes, MapSet& maps, const Exact&
 
 }  // namespace
 
+int mapSideOf(const CompareOptions& options, const Parameterization& map) {
+  int side = options.mapSide;
+  if (options.mapTexels != 0) {
+    const double each = static_cast<double>(options.mapTexels) / map.layerCount(options.mapOptions);
+    side = each >= 0.0 ? static_cast<int>(std::lround(std::min(std::sqrt(each), 1e6))) : 0;
+  }
+  if (side < 2 || side > 16384)
+    throw UsageError(fmt::format(
+        "a {} map's side of {} texels is outside 2..16384; choose another --map-size or --map-texels",
+        map.name(), side));
+  return side;
+}
+
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   std::ranges::sort(values);
@@ -212,7 +226,8 @@ Comparison compare(const Session& session, const CompareOptions& options) {
     summary.receiversAndTraceMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 
     progress.step(fmt::format("{}: map", parameterization->name()));
-    const Fit fit = fitMap(session, *parameterization, exact, options.mapSide);
+    const Fit fit =
+        fitMap(session, *parameterization, exact, mapSideOf(options, *parameterization), options.mapOptions);
     MapSet maps(session, passes.map, fit.fitted, exact, options.cull);
     summary.zNear = fit.fitted.zNear;
     summary.zFar = fit.fitted.zFar;

@@ -18,13 +18,18 @@ struct KnobValue {
 struct CompareOptions {
   std::vector<const Parameterization*> maps;
   std::vector<const BiasMethod*> biases;
-  int mapSide = 1024;  // texels
+  int mapSide = 1024;     // texels of a layer's side
+  int64_t mapTexels = 0;  // of all layers together; not 0: picks each map's side instead of mapSide
+  MapOptions mapOptions;
   CullMode cull = CullMode::Solids;
   int epsilonAt = glsl::kEpsilonAtOccluder;
   std::vector<KnobValue> knobs;  // that differ from their defaults
   int repeats = 5;               // of every timed stage; at least 1
   std::filesystem::path outDir;  // empty: no pictures
 };
+
+// The side of a map's layers, texels. Throws UsageError outside 2..16384.
+int mapSideOf(const CompareOptions& options, const Parameterization& map);
 
 // One method on one map. Counts add up to `scored`.
 struct Row {

@@ -81,7 +81,8 @@ Exact computeExact(const Session& session, const Parameterization& parameterizat
   return exact;
 }
 
-Fit fitMap(const Session& session, const Parameterization& parameterization, const Exact& exact, int side) {
+Fit fitMap(const Session& session, const Parameterization& parameterization, const Exact& exact, int side,
+           const MapOptions& options) {
   const Clock::time_point start = Clock::now();
   std::vector<glm::dvec3> scored;
   scored.reserve(exact.receivers.scored);
@@ -89,8 +90,12 @@ Fit fitMap(const Session& session, const Parameterization& parameterization, con
     if (exact.receivers.states[i] == PixelState::Scored)
       scored.push_back(exact.receivers.samples[i].positionW);
   Fit fit;
-  fit.fitted = parameterization.fit(
-      {.scene = session.scene(), .light = exact.light, .receiversW = scored, .side = side});
+  fit.fitted = parameterization.fit({.scene = session.scene(),
+                                     .light = exact.light,
+                                     .receiversW = scored,
+                                     .side = side,
+                                     .camera = session.view(),
+                                     .options = options});
   fit.ms = millisecondsSince(start);
   return fit;
 }

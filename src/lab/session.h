@@ -57,7 +57,8 @@ struct Fit {
   FittedMap fitted;
   double ms = 0.0;
 };
-Fit fitMap(const Session& session, const Parameterization& parameterization, const Exact& exact, int side);
+Fit fitMap(const Session& session, const Parameterization& parameterization, const Exact& exact, int side,
+           const MapOptions& options);
 
 // A fitted map, drawn with what a bias needs of it.
 struct DrawnMap {

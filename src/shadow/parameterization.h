@@ -3,9 +3,10 @@
 // layers. Its mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in
 // shaders/shared/map.glsl, and a FittedMap carries the numbers those functions read.
 //
-// spot and directional are here; omni/ adds its own to the list.
+// spot and directional are here, cube and paraboloid in omni/; lab/maps.h has the list of all.
 
 #include "scene/scene_buffers.h"
+#include "shadow/map_options.h"
 #include "truth/receivers.h"
 
 #include "shared/light_frame.glsl"
@@ -32,6 +33,8 @@ struct FitInput {
   const LightModel& light;
   std::span<const glm::dvec3> receiversW;  // the scored points the camera sees
   int side = 1024;                         // texels
+  const glsl::CameraView& camera;          // what warps and cascades are made for
+  MapOptions options = {};
 };
 
 class Parameterization {
@@ -39,7 +42,7 @@ class Parameterization {
   virtual ~Parameterization() = default;
   virtual const char* name() const = 0;      // on the command line: --maps spot
   virtual const char* sentence() const = 0;  // for --help
-  virtual int layerCount() const = 0;
+  virtual int layerCount(const MapOptions& options) const = 0;
   enum class Takes { No, IfNothingElse, Yes };
   // Whether a light of this kind can be mapped. A spot map takes any positional light; a directional map
   // makes a sun of one where the scene has no directional light.
@@ -49,10 +52,5 @@ class Parameterization {
   virtual LightModel lightModel(const Light& light, const glm::dvec3& aimW) const = 0;
   virtual FittedMap fit(const FitInput& input) const = 0;
 };
-
-const std::vector<const Parameterization*>& parameterizations();
-
-// "a,b" to parameterizations. Throws UsageError that lists the names.
-std::vector<const Parameterization*> parseMaps(const std::string& list);
 
 }  // namespace gnomon

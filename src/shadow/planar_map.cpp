@@ -111,7 +111,7 @@ class SpotParameterization final : public Parameterization {
  public:
   const char* name() const override { return "spot"; }
   const char* sentence() const override { return "one perspective layer within a cone"; }
-  int layerCount() const override { return 1; }
+  int layerCount(const MapOptions&) const override { return 1; }
 
   Takes takes(LightType type) const override {
     return type == LightType::Directional ? Takes::No : Takes::Yes;
@@ -133,7 +133,7 @@ class DirectionalParameterization final : public Parameterization {
   const char* sentence() const override {
     return "one orthographic layer; a positional light becomes a sun from its side";
   }
-  int layerCount() const override { return 1; }
+  int layerCount(const MapOptions&) const override { return 1; }
 
   Takes takes(LightType type) const override {
     return type == LightType::Directional ? Takes::Yes : Takes::IfNothingElse;
@@ -158,6 +158,12 @@ const Parameterization& spotParameterization() {
 const Parameterization& directionalParameterization() {
   static const DirectionalParameterization directional;
   return directional;
+}
+
+const std::vector<const Parameterization*>& planarParameterizations() {
+  static const std::vector<const Parameterization*> both = {&spotParameterization(),
+                                                            &directionalParameterization()};
+  return both;
 }
 
 }  // namespace gnomon

@@ -14,4 +14,7 @@ namespace gnomon {
 const Parameterization& spotParameterization();
 const Parameterization& directionalParameterization();
 
+// Both.
+const std::vector<const Parameterization*>& planarParameterizations();
+
 }  // namespace gnomon

@@ -2,6 +2,7 @@
 // twice.
 #include "lab/compare.h"
 #include "base/file.h"
+#include "lab/maps.h"
 #include "lab/pictures.h"
 #include "lab/results.h"
 #include "lab/table.h"
@@ -121,7 +122,7 @@ TEST(Compare, NoPictureHasANanOrAnInfinity) {
     Passes passes(session.device(), session.view());
     for (const Parameterization* map : parameterizations()) {
       const Exact exact = computeExact(session, *map);
-      const Fit fit = fitMap(session, *map, exact, 64);
+      const Fit fit = fitMap(session, *map, exact, 64, {});
       for (const BiasMethod& bias : biasMethods()) {
         const DrawnMap drawn =
             drawMap(session, passes.map, fit.fitted, exact, bias.content, CullMode::Solids);

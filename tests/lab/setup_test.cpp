@@ -1,6 +1,7 @@
 // Words of the command line to a light and a camera.
 #include "lab/setup.h"
 #include "base/error.h"
+#include "lab/maps.h"
 #include "scene/generate.h"
 #include "shadow/planar_map.h"
 

@@ -36,7 +36,8 @@ FittedMap fitContact(const Parameterization& map) {
     receivers.emplace_back(
         glm::mix(bounds.lower, bounds.upper, glm::vec3(i & 1, (i >> 1) & 1, i >> 2) * 0.6f + 0.2f));
   const LightModel light = lightFor(scene, map, glm::dvec3(bounds.center()));
-  return map.fit({.scene = scene, .light = light, .receiversW = receivers, .side = 256});
+  const glsl::CameraView camera = cameraView(scene.cameras.front(), 256, 256);
+  return map.fit({.scene = scene, .light = light, .receiversW = receivers, .side = 256, .camera = camera});
 }
 
 }  // namespace
@@ -91,7 +92,8 @@ Rendered render(const gpu::Device& device, const std::string& sceneName, const P
   std::vector<glm::dvec3> scored;
   for (size_t i = 0; i < r.receivers.states.size(); ++i)
     if (r.receivers.states[i] == PixelState::Scored) scored.push_back(r.receivers.samples[i].positionW);
-  r.fitted = map.fit({.scene = r.scene, .light = r.light, .receiversW = scored, .side = mapSide});
+  r.fitted =
+      map.fit({.scene = r.scene, .light = r.light, .receiversW = scored, .side = mapSide, .camera = r.view});
   r.image = draw(device, r, content, cull);
   return r;
 }

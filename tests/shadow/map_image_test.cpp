@@ -144,7 +144,7 @@ TEST_F(MapImageTest, HolesOfMasksAreHolesOfTheMap) {
 // not.
 TEST_F(MapImageTest, BlendingAndPeelingGiveTheSameTwoLayers) {
   for (const GeneratedScene& generated : generatedScenes()) {
-    for (const Parameterization* map : parameterizations()) {
+    for (const Parameterization* map : planarParameterizations()) {
       const test::Rendered r = test::render(device(), generated.name, *map, 64, 192, CullMode::None);
       for (const CullMode cull : {CullMode::None, CullMode::Solids}) {
         const auto blended = test::draw(device(), r, MapContent::TwoLayers, cull, SecondLayer::Blend);

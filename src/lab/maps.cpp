@@ -1,4 +1,4 @@
-#include "shadow/parameterization.h"
+#include "lab/maps.h"
 
 #include "base/error.h"
 #include "shadow/planar_map.h"
@@ -11,9 +11,7 @@
 namespace gnomon {
 
 const std::vector<const Parameterization*>& parameterizations() {
-  static const std::vector<const Parameterization*> all = {&spotParameterization(),
-                                                           &directionalParameterization()};
-  return all;
+  return planarParameterizations();
 }
 
 std::vector<const Parameterization*> parseMaps(const std::string& list) {

@@ -1,0 +1,14 @@
+#pragma once
+// Every parameterization there is, by its name on the command line.
+
+#include "shadow/parameterization.h"
+
+namespace gnomon {
+
+// Planar maps first, then those of omni/.
+const std::vector<const Parameterization*>& parameterizations();
+
+// "a,b" to parameterizations. Throws UsageError that lists the names.
+std::vector<const Parameterization*> parseMaps(const std::string& list);
+
+}  // namespace gnomon

@@ -1,0 +1,62 @@
+#pragma once
+// Choices of how a map is fitted and drawn that a user may make: each parameterization reads what concerns
+// it.
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include <glm/glm.hpp>
+
+namespace gnomon {
+
+// What the window of a planar map encloses.
+enum class WindowFit {
+  None,     // the whole scene (directional), the whole cone (spot)
+  Tight,    // the camera's frustum cut to the scene
+  Focused,  // the surfaces that the camera sees and the light faces
+};
+
+// Shapes a planar map's texels to the camera (Real-Time Rendering, 3rd edition, section 9.1.4).
+enum class Warp {
+  None,
+  Psm,     // perspective shadow maps: Stamminger and Drettakis 2002
+  Lispsm,  // light space perspective shadow maps: Wimmer, Scherzer, Purgathofer 2004
+  Tsm,     // trapezoidal shadow maps: Martin and Tan 2004
+};
+
+// How a cube map stores depth.
+enum class CubeDepth {
+  Hyperbolic,  // the rasterizer's own z/w of the face
+  Radial,      // linear in the distance from the light
+};
+
+// How the triangles of a dual paraboloid are rasterized.
+enum class ParaboloidRaster {
+  Vertex,  // corners are projected, edges are drawn straight: wrong for large triangles (Brabec et al. 2002)
+  Tessellated,  // the same, with triangles split until their edges are straight to half a texel
+  Exact,        // each texel's ray meets the triangle or does not
+};
+
+struct MapOptions {
+  WindowFit fit = WindowFit::Focused;
+  bool snap = true;  // texels keep their places in the world while the camera moves
+  Warp warp = Warp::None;
+  int cascades = 1;  // directional maps: layers, finest first
+  CubeDepth cubeDepth = CubeDepth::Hyperbolic;
+  ParaboloidRaster paraboloidRaster = ParaboloidRaster::Exact;
+  std::optional<glm::dvec3>
+      paraboloidAxisW;  // unit; absent: the seam is turned away from what the camera sees
+};
+
+// By their names on the command line. Each throws UsageError that names the flag and lists the choices.
+WindowFit parseWindowFit(const std::string& name);                // none, tight, focused
+Warp parseWarp(const std::string& name);                          // none, psm, lispsm, tsm
+CubeDepth parseCubeDepth(const std::string& name);                // hyperbolic, radial
+ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, tessellated, exact
+const char* windowFitName(WindowFit fit);
+const char* warpName(Warp warp);
+const char* cubeDepthName(CubeDepth depth);
+const char* paraboloidRasterName(ParaboloidRaster raster);
+
+}  // namespace gnomon
