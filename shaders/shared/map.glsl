@@ -121,6 +121,35 @@ GNOMON_FN vec2 mapTexelCenter(ShadowMap map, ivec2 texel) {
   return vec2((float(texel.x) + 0.5f) / float(map.side), (float(texel.y) + 0.5f) / float(map.side));
 }
 
+// Whether a layer draws this texel: it lies on its square, and where the layer is less than a square, on that.
+GNOMON_FN bool mapHoldsTexel(ShadowMap map, int layer, ivec2 texel) {
+  return texel.x >= 0 && texel.y >= 0 && texel.x < map.side && texel.y < map.side;
+}
+
+struct MapTexel {
+  int layer;
+  ivec2 texel;
+  bool held;  // by some layer
+};
+
+// The texel that a look-up means which may lie beyond a layer's edge, `distance` metres down its ray: there the ray of the
+// missing texel, by the same formula continued, is looked up in whatever layer holds that point. So a filter that
+// crosses a cube's edge, a paraboloid's rim or a cascade's border reads what the light sees there.
+GNOMON_FN MapTexel mapTexelAcross(ShadowMap map, int layer, ivec2 texel, float distance_) {
+  MapTexel found;
+  found.layer = layer;
+  found.texel = texel;
+  found.held = mapHoldsTexel(map, layer, texel);
+  if (!found.held) {
+    Ray ray = mapTexelRay(map, layer, mapTexelCenter(map, texel));
+    MapPoint point = mapProject(map, ray.origin + ray.dir * distance_);
+    found.layer = point.layer;
+    found.texel = mapTexel(map, point.uv);
+    found.held = point.covered;
+  }
+  return found;
+}
+
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
