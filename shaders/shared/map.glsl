@@ -123,7 +123,7 @@ GNOMON_FN vec2 mapTexelCenter(ShadowMap map, ivec2 texel) {
 
 // Whether a layer draws this texel: it lies on its square, and where the layer is less than a square, on that.
 GNOMON_FN bool mapHoldsTexel(ShadowMap map, int layer, ivec2 texel) {
-  return texel.x >= 0 && texel.y >= 0 && texel.x < map.side && texel.y < map.side;
+  return layer < map.layerCount && texel.x >= 0 && texel.y >= 0 && texel.x < map.side && texel.y < map.side;
 }
 
 struct MapTexel {
