@@ -1,9 +1,10 @@
-// One visibility shader for every map and every bias: G-buffer pixel -> receiver -> tap -> lit or not.
+// One visibility shader for every map, bias and filter: G-buffer pixel -> receiver -> taps -> how much of them is lit.
 //
 // The method, the map's kind and its layer count are specialization constants, so that each pipeline holds one bias on one
 // map only, and reads the matrices of a single layer from constant addresses. kDiagnose also writes what decided the
-// pixel; timings are taken without it.
+// pixel, of one tap; timings are taken without it.
 #include "shared/bias.glsl"
+#include "shared/filter.glsl"
 #include "shared/shade.glsl"
 
 #include "scene/surface_fetch.glsl"
@@ -15,6 +16,7 @@ layout(constant_id = 1) const int kDiagnose = 0;
 layout(constant_id = 2) const int kMapKind = kMapPlanar;
 layout(constant_id = 3) const int kLayerCount = 1;
 layout(constant_id = 5) const int kSecondLayer = 0;  // 1: the method reads z2
+layout(constant_id = 6) const int kFilter = kFilterNone;
 
 layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
 layout(binding = kBindSecondDepth) uniform texture2DArray secondDepthLayers;
@@ -40,45 +42,63 @@ Tap fetchTap(ShadowMap map, int layer, ivec2 texel) {
   return tap;
 }
 
+// The share of the filter's taps that are lit. Taps that no layer holds count for nothing.
+float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2 pixel) {
+  vec2 position = point.uv * float(map.side);
+  uint seed = pixelSeed(pixel);
+  float lit = 0.0f;
+  float weights = 0.0f;
+  for (int i = 0; i < filterTapCount(kFilter); ++i) {
+    FilterTap wanted = filterTap(kFilter, position, seed, i);
+    MapTexel found = mapTexelAcross(map, point.layer, wanted.texel, receiver.posL);
+    if (!found.held) continue;
+    bool known;
+    if (biasLit(kMethod, map, shade.bias, receiver, fetchTap(map, found.layer, found.texel), known)) lit += wanted.weight;
+    if (!known) return kUnknownVisibility;
+    weights += wanted.weight;
+  }
+  return weights > 0.0f ? lit / weights : 1.0f;
+}
+
+// The texel that holds the receiver, and with kDiagnose what it said.
+float plainVisibility(ShadowMap map, Receiver receiver, MapPoint point, inout PixelDiagnosis pixelDiagnosis) {
+  Tap tap = fetchTap(map, point.layer, mapTexel(map, point.uv));
+  bool known;
+  bool lit = biasLit(kMethod, map, shade.bias, receiver, tap, known);
+  if (kDiagnose == 1) {
+    pixelDiagnosis.flags |= kPixelCovered | (lit ? kPixelLit : 0u) | (known ? 0u : kPixelUnknown);
+    if (receiverPlaneDepth(map, tap.layer, receiver, tap.ray).grazing) pixelDiagnosis.flags |= kPixelGrazing;
+    pixelDiagnosis.texel = packTexel(tap.layer, tap.texel);
+  }
+  return known ? (lit ? 1.0f : 0.0f) : kUnknownVisibility;
+}
+
+// Empty pixels and those beyond the map are lit; a surface that faces away is not.
+float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosis) {
+  if (id.instancePlusOne == 0u) return 1.0f;
+  SurfacePoint surface = fetchSurface(shade.camera, pixel, id);
+  float lightSide = dot(surface.normal, towardsLight(shade, surface.position));
+  float cameraSide = dot(surface.normal, shade.camera.eyeW - surface.position);
+  if (!(lightSide * cameraSide > 0.0f)) return 0.0f;
+  pixelDiagnosis.flags = kPixelShaded;
+  Receiver receiver;
+  receiver.posL = lightFromWorld(lightFrame, surface.position);
+  receiver.normalL = directionFromWorld(lightFrame, lightSide > 0.0f ? surface.normal : -surface.normal);
+  ShadowMap map = specializedMap();
+  receiver = biasReceiver(kMethod, map, shade.bias, receiver);
+  MapPoint point = mapProject(map, receiver.posL);
+  if (!point.covered) return 1.0f;
+  return kFilter == kFilterNone ? plainVisibility(map, receiver, point, pixelDiagnosis)
+                                : filteredVisibility(map, receiver, point, pixel);
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (pixel.x >= shade.camera.width || pixel.y >= shade.camera.height) return;
   uint index = uint(pixel.y * shade.camera.width + pixel.x);
-
-  PrimitiveId id = fetchPrimitive(pixel);
-  uint flags = 0u;
-  uint texelWord = 0u;
-  float result = 1.0f;
-  if (id.instancePlusOne != 0u) {
-    SurfacePoint surface = fetchSurface(shade.camera, pixel, id);
-    float lightSide = dot(surface.normal, towardsLight(shade, surface.position));
-    float cameraSide = dot(surface.normal, shade.camera.eyeW - surface.position);
-    result = 0.0f;
-    if (lightSide * cameraSide > 0.0f) {
-      flags = kPixelShaded;
-      Receiver receiver;
-      receiver.posL = lightFromWorld(lightFrame, surface.position);
-      receiver.normalL = directionFromWorld(lightFrame, lightSide > 0.0f ? surface.normal : -surface.normal);
-      ShadowMap map = specializedMap();
-      receiver = biasReceiver(kMethod, map, shade.bias, receiver);
-      MapPoint point = mapProject(map, receiver.posL);
-      result = 1.0f;
-      if (point.covered) {
-        Tap tap = fetchTap(map, point.layer, mapTexel(map, point.uv));
-        bool known;
-        bool lit = biasLit(kMethod, map, shade.bias, receiver, tap, known);
-        result = known ? (lit ? 1.0f : 0.0f) : kUnknownVisibility;
-        if (kDiagnose == 1) {
-          flags |= kPixelCovered | (lit ? kPixelLit : 0u) | (known ? 0u : kPixelUnknown);
-          if (receiverPlaneDepth(map, tap.layer, receiver, tap.ray).grazing) flags |= kPixelGrazing;
-          texelWord = packTexel(tap.layer, tap.texel);
-        }
-      }
-    }
-  }
-  visibility[index] = result;
-  if (kDiagnose == 1) {
-    diagnosis[index].texel = texelWord;
-    diagnosis[index].flags = flags;
-  }
+  PixelDiagnosis pixelDiagnosis;
+  pixelDiagnosis.texel = 0u;
+  pixelDiagnosis.flags = 0u;
+  visibility[index] = shadePixel(pixel, fetchPrimitive(pixel), pixelDiagnosis);
+  if (kDiagnose == 1) diagnosis[index] = pixelDiagnosis;
 }

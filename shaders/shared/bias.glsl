@@ -59,6 +59,7 @@ GNOMON_SHARED_END
 #include "shared/bias/receiver_plane.glsl"
 #include "shared/bias/second_depth.glsl"
 #include "shared/bias/slope.glsl"
+#include "shared/bias/user.glsl"
 
 GNOMON_SHARED_BEGIN
 
@@ -98,6 +99,8 @@ GNOMON_FN bool biasLit(int method, ShadowMap map, BiasParams params, Receiver re
       return midpointLit(map, receiver, tap);
     case kBiasDual:
       return dualLit(map, params, receiver, tap);
+    case kBiasUser:
+      return userLit(map, params, receiver, tap);
   }
   known = false;
   return false;

@@ -18,6 +18,7 @@ struct BiasParams {
   float receiverPlaneOffset;  // metres
   float secondDepthOffset;    // metres
   float dualOffset;           // metres
+  float userKnob;             // of a user's own bias: its file says what it is
 };
 
 const int kEpsilonAtFragment = 0;
@@ -36,10 +37,11 @@ const int kBiasMidpoint = 8;
 const int kBiasDual = 9;
 const int kBiasAdaptiveClamped = 10;
 const int kBiasAdaptiveEhm = 11;
+const int kBiasUser = 12;  // bias/user.glsl, which --bias-file replaces
 
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::BiasParams) == 40);
+static_assert(sizeof(gnomon::glsl::BiasParams) == 44);
 #endif
 #endif

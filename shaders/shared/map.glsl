@@ -132,17 +132,18 @@ struct MapTexel {
   bool held;  // by some layer
 };
 
-// The texel that a look-up means which may lie beyond a layer's edge, `distance` metres down its ray: there the ray of the
-// missing texel, by the same formula continued, is looked up in whatever layer holds that point. So a filter that
-// crosses a cube's edge, a paraboloid's rim or a cascade's border reads what the light sees there.
-GNOMON_FN MapTexel mapTexelAcross(ShadowMap map, int layer, ivec2 texel, float distance_) {
+// The texel that a look-up for a receiver at posL means, which may lie beyond its layer's edge: there the ray of the missing
+// texel, by the same formula continued, is followed to where it passes the receiver, and that point looked up in whatever
+// layer holds it. So a filter that crosses a cube's edge, a paraboloid's rim or a cascade's border reads what the light
+// sees there.
+GNOMON_FN MapTexel mapTexelAcross(ShadowMap map, int layer, ivec2 texel, vec3 posL) {
   MapTexel found;
   found.layer = layer;
   found.texel = texel;
   found.held = mapHoldsTexel(map, layer, texel);
   if (!found.held) {
     Ray ray = mapTexelRay(map, layer, mapTexelCenter(map, texel));
-    MapPoint point = mapProject(map, ray.origin + ray.dir * distance_);
+    MapPoint point = mapProject(map, ray.origin + ray.dir * dot(posL - ray.origin, ray.dir));
     found.layer = point.layer;
     found.texel = mapTexel(map, point.uv);
     found.held = point.covered;

@@ -55,7 +55,7 @@ GNOMON_FN vec3 towardsLight(ShadeUniforms shade, vec3 posW) { return shade.light
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::ShadeUniforms) == 128 + 40 + 16 + 16 + 24);
-static_assert(offsetof(gnomon::glsl::ShadeUniforms, ambient) == 212);
+static_assert(sizeof(gnomon::glsl::ShadeUniforms) == 128 + 44 + 16 + 16 + 24);
+static_assert(offsetof(gnomon::glsl::ShadeUniforms, ambient) == 216);
 #endif
 #endif

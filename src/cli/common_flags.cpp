@@ -38,6 +38,38 @@ std::string knobHelp(const BiasMethod& method, const BiasKnob& knob) {
                      knob.defaultOfSceneScale ? " of the scene's diagonal" : "");
 }
 
+float checkedKnob(const std::string& flag, const BiasKnob& knob, float value) {
+  if (!(value >= knob.lower && value <= knob.upper))
+    throw UsageError(fmt::format("{} {:g} is outside {:g}..{:g} {}", flag, value, knob.lower, knob.upper,
+                                 unitName(knob.unit)));
+  return value;
+}
+
+std::string filterChoices() {
+  std::string choices;
+  for (const Filter& filter : filters())
+    choices += fmt::format("{}{} ({})", choices.empty() ? "" : ", ", filter.name, filter.sentence);
+  return choices;
+}
+
+void addUserBiases(const MethodFlags& flags, CompareOptions& options) {
+  for (const std::string& path : flags.biasFiles) {
+    options.userBiases.push_back(loadUserBias(path));
+    const BiasMethod& method = options.userBiases.back()->method;
+    for (const BiasMethod* other : options.biases)
+      if (std::string_view(other->name) == method.name)
+        throw UsageError(fmt::format(
+            "--bias-file {}: two biases are named '{}'; write //! name: in one of them", path, method.name));
+    options.biases.push_back(&method);
+    if (!flags.biasFileKnob) continue;
+    if (method.knobs.empty())
+      throw UsageError(fmt::format("--bias-file-knob: {} has no knob; write //! knob: in it", path));
+    options.knobs.push_back(
+        {&method.knobs.front(), checkedKnob("--bias-file-knob", method.knobs.front(), *flags.biasFileKnob)});
+  }
+  if (flags.biasFiles.empty() && flags.biasFileKnob) throw UsageError("--bias-file-knob needs a --bias-file");
+}
+
 }  // namespace
 
 void setCommandLine(int argc, char** argv) {
@@ -100,6 +132,13 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
   verb.add_option("--maps", flags.maps, "comma-separated: " + maps)->capture_default_str();
   verb.add_option("--biases", flags.biases, fmt::format("comma-separated, or all: {}", biases))
       ->capture_default_str();
+  verb.add_option(
+      "--bias-file", flags.biasFiles,
+      "GLSL file with a bias of your own, scored as one more row (docs/add_a_bias.md); may be repeated");
+  verb.add_option("--bias-file-knob", flags.biasFileKnob,
+                  "value of your bias's knob, in its unit; default: as the file says");
+  verb.add_option("--filters", flags.filters, "comma-separated, or all: " + filterChoices())
+      ->capture_default_str();
   CLI::Option* side =
       verb.add_option("--map-size", flags.mapSize, "side of a map's layer, texels")->capture_default_str();
   verb.add_option("--map-texels", flags.mapTexels,
@@ -124,6 +163,7 @@ CompareOptions compareOptions(const MethodFlags& flags) {
   CompareOptions options;
   options.maps = parseMaps(flags.maps);
   options.biases = parseBiases(flags.biases);
+  options.filters = parseFilters(flags.filters);
   options.cull = parseCullMode(flags.cull);
   options.epsilonAt = parseEpsilonAt(flags.epsilonAt);
   options.mapSide = flags.mapSize;
@@ -135,12 +175,10 @@ CompareOptions compareOptions(const MethodFlags& flags) {
     for (const BiasKnob& knob : method.knobs) {
       const auto found = flags.knobs.find(knobFlag(method, knob));
       if (found == flags.knobs.end()) continue;
-      if (!(found->second >= knob.lower && found->second <= knob.upper))
-        throw UsageError(fmt::format("{} {:g} is outside {:g}..{:g} {}", found->first, found->second,
-                                     knob.lower, knob.upper, unitName(knob.unit)));
-      options.knobs.push_back({&knob, found->second});
+      options.knobs.push_back({&knob, checkedKnob(found->first, knob, found->second)});
     }
   }
+  addUserBiases(flags, options);
   return options;
 }
 

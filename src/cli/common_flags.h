@@ -4,6 +4,7 @@
 #include "lab/compare.h"
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace CLI {
@@ -24,13 +25,16 @@ Session openSession(const SceneFlags& flags);
 struct MethodFlags {
   std::string maps;
   std::string biases;
+  std::vector<std::string> biasFiles;
+  std::optional<float> biasFileKnob;
+  std::string filters = "none";
   int mapSize = 1024;
   long mapTexels = 0;
   std::string cull = "solids";
   std::string epsilonAt = "occluder";
   std::map<std::string, float> knobs;  // flag -> value
 };
-// --maps, --biases, --map-size, --map-texels, --cull, --epsilon-at and a flag a knob.
+// --maps, --biases, --bias-file, --filters, --map-size, --map-texels, --cull, --epsilon-at and a flag a knob.
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases);
 // Throws UsageError.
 CompareOptions compareOptions(const MethodFlags& flags);

@@ -22,6 +22,7 @@ struct CompareFlags {
   std::string json;
   std::vector<std::string> failIf;
   int repeats = 5;
+  bool tune = false;
 };
 
 int runCompare(const CompareFlags& flags) {
@@ -30,6 +31,7 @@ int runCompare(const CompareFlags& flags) {
   CompareOptions options = compareOptions(flags.method);
   options.outDir = flags.out;
   options.repeats = flags.repeats;
+  options.tune = flags.tune;
 
   const Session session = openSession(flags.scene);
   const Comparison comparison = compare(session, options);
@@ -39,6 +41,7 @@ int runCompare(const CompareFlags& flags) {
 
   std::fputs(comparisonHeader(session, comparison).c_str(), stdout);
   std::fputs(comparisonTable(comparison).c_str(), stdout);
+  std::fputs(tuningTable(comparison).c_str(), stdout);
   if (!flags.out.empty())
     std::printf("wrote %s/results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
   for (const Threshold& threshold : thresholds) {
@@ -63,6 +66,10 @@ Run addCompareVerb(CLI::App& app) {
   verb->add_option(
       "--fail-if", flags->failIf,
       "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; may be repeated");
+  verb->add_flag(
+      "--tune", flags->tune,
+      "each bias with a knob also at the value with the least acne + leak here, and how good that value is "
+      "from another camera and on a map of half the size");
   verb->add_option("--repeats", flags->repeats, "of every timed stage; medians are told")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -2,6 +2,7 @@
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
 #include "lab/pictures.h"
+#include "shadow/filtered_truth.h"
 
 #include <array>
 #include <cstdio>
@@ -21,7 +22,8 @@ struct RenderFlags {
   std::string show = "beauty";
 };
 
-constexpr std::array kShows = {"beauty", "visibility", "truth", "labels", "depth"};
+constexpr std::array kShows = {"beauty", "visibility", "truth",        "difference",
+                               "labels", "depth",      "second-depth", "layer-gap"};
 
 struct Picture {
   Image8 png;
@@ -35,39 +37,48 @@ ImageF oneChannel(const Session& session, const std::vector<float>& values) {
   return image;
 }
 
+Picture depthImage(const Session& session, const DrawnMap& map, const std::string& show) {
+  const DepthImages depth = depthInMetres(session, map);
+  const ImageF& metres = show == "depth" ? depth.first : show == "second-depth" ? *depth.second : *depth.gap;
+  return {depthPicture(metres), metres, {"metres"}};
+}
+
 Picture renderPicture(const Session& session, const CompareOptions& options, const std::string& show) {
   Passes passes(session.device(), session.view());
   const Parameterization& parameterization = *options.maps.front();
-  const BiasMethod& bias = *options.biases.front();
+  const Method method = methodFor(session, options, *options.biases.front());
+  const Filter& filter = *options.filters.front();
   const Exact exact = computeExact(session, parameterization);
-  if (show == "truth") {
-    const std::vector<float> truth = truthVisibility(exact.receivers, exact.truth);
-    return {visibilityPicture(exact.receivers, truth), oneChannel(session, truth), {"Y"}};
-  }
-  const DrawnMap map = drawMap(
-      session, passes.map,
-      fitMap(session, parameterization, exact, mapSideOf(options, parameterization), options.mapOptions)
-          .fitted,
-      exact, bias.content, options.cull);
-  if (show == "depth") {
-    const ImageF metres = depthInMetres(session, map);
-    return {depthPicture(metres), metres, {"metres"}};
-  }
-  const Judged judged = judge(session, passes, map, exact, bias.id, biasParams(session, options));
-  if (show == "visibility")
-    return {
-        visibilityPicture(exact.receivers, judged.visibility), oneChannel(session, judged.visibility), {"Y"}};
+  const int side = mapSideOf(options, parameterization);
+  const FittedMap fitted = fitMap(session, parameterization, exact, side, options.mapOptions).fitted;
+  const bool layers = show == "second-depth" || show == "layer-gap";
+  const DrawnMap map = drawMap(session, passes.map, fitted, exact,
+                               layers ? MapContent::TwoLayers : method.bias->content, options.cull);
+  if (layers || show == "depth") return depthImage(session, map, show);
   if (show == "labels") {
+    const Judged judged = judge(session, passes, map, exact, method);
     const std::string title =
-        fmt::format("{} {}, {} x {} texels", parameterization.name(), bias.name,
-                    mapSideOf(options, parameterization), mapSideOf(options, parameterization));
+        fmt::format("{} {}, {} x {} texels", parameterization.name(), method.bias->name, side, side);
     std::vector<float> numbers;
     for (const Label label : judged.labels.labels) numbers.push_back(static_cast<float>(label));
     return {labelPicture(exact.receivers, exact.truth, judged.labels, title),
             oneChannel(session, numbers),
             {"label"}};
   }
-  const ImageF radiance = renderRadiance(session, passes, exact, judged.visibility);
+  std::vector<float> truth;
+  if (show == "truth" || show == "difference")
+    truth =
+        computeFilteredTruth(session.tracer(), exact.light, exact.receivers, exact.truth, fitted, filter.id);
+  if (show == "truth") return {visibilityPicture(exact.receivers, truth), oneChannel(session, truth), {"Y"}};
+  const std::vector<float> visibility = filteredVisibility(session, passes, map, exact, method, filter.id);
+  if (show == "difference") {
+    ImageF difference = oneChannel(session, visibility);
+    for (size_t i = 0; i < truth.size(); ++i) difference.values[i] -= truth[i];
+    return {differencePicture(exact.receivers, visibility, truth), difference, {"Y"}};
+  }
+  if (show == "visibility")
+    return {visibilityPicture(exact.receivers, visibility), oneChannel(session, visibility), {"Y"}};
+  const ImageF radiance = renderRadiance(session, passes, exact, visibility);
   return {toSrgb8(radiance), radiance, {"R", "G", "B"}};
 }
 
@@ -75,9 +86,11 @@ int runRender(const RenderFlags& flags) {
   const std::string extension = std::filesystem::path(flags.out).extension().string();
   if (extension != ".png" && extension != ".exr")
     throw UsageError(fmt::format("-o {}: write a .png or an .exr", flags.out));
-  const CompareOptions options = compareOptions(flags.method);
-  if (options.maps.size() != 1 || options.biases.size() != 1)
-    throw UsageError("render draws one configuration: give one --maps and one --biases");
+  CompareOptions options = compareOptions(flags.method);
+  if (options.biases.size() > 1 && !options.userBiases.empty())
+    options.biases.erase(options.biases.begin(), options.biases.end() - 1);  // a file given is the bias meant
+  if (options.maps.size() != 1 || options.biases.size() != 1 || options.filters.size() != 1)
+    throw UsageError("render draws one configuration: give one --maps, one --biases and one --filters");
   const Session session = openSession(flags.scene);
   const Picture picture = renderPicture(session, options, flags.show);
   if (extension == ".exr")
@@ -97,7 +110,9 @@ Run addRenderVerb(CLI::App& app) {
   addMethodFlags(*verb, flags->method, "spot", "adaptive");
   verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")
       ->required();
-  verb->add_option("--show", flags->show, "beauty, visibility, truth, labels or depth")
+  verb->add_option("--show", flags->show,
+                   "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth "
+                   "or layer-gap")
       ->check(CLI::IsMember(std::vector<std::string>(kShows.begin(), kShows.end())))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };

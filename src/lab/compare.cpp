@@ -3,6 +3,10 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "lab/pictures.h"
+#include "lab/robustness.h"
+#include "lab/row_pictures.h"
+#include "lab/tune.h"
+#include "shadow/filtered_truth.h"
 
 #include <algorithm>
 #include <chrono>
@@ -31,26 +35,24 @@ TruthSummary summarize(const Parameterization& map, const Exact& exact) {
           .margin = exact.truth.margin};
 }
 
-Row rowFor(const Parameterization& map, const BiasMethod& bias, const glsl::BiasParams& params,
-           const CompareOptions& options, const Judged& judged) {
-  const LabelImage& labels = judged.labels;
-  Row row;
-  row.map = map.name();
-  row.mapSide = mapSideOf(options, map);
-  row.layers = map.layerCount(options.mapOptions);
+// A row before it is judged.
+struct Entry {
+  Method method;
+  std::optional<Tuning> tuning;
+  size_t row = 0;  // the first of its rows, one a filter
+};
+
+void describe(Row& row, const Entry& entry, const Judged& judged) {
+  const BiasMethod& bias = *entry.method.bias;
   row.bias = bias.name;
-  for (const BiasKnob& knob : bias.knobs) {
-    row.knobs.emplace_back(knob.name, static_cast<double>(params.*knob.field));
+  row.tuning = entry.tuning;
+  for (const BiasKnob& knob : knobsOf(bias)) {
+    row.knobs.emplace_back(knob.name, static_cast<double>(entry.method.params.*knob.field));
     row.knobUnits.emplace_back(unitName(knob.unit));
   }
-  // The three adaptive methods share one knob, which is adaptive's in the list.
-  if (bias.hasEpsilon && bias.knobs.empty()) {
-    row.knobs.emplace_back("k", static_cast<double>(params.adaptiveK));
-    row.knobUnits.emplace_back("");
-  }
   row.content = contentName(bias.content);
-  row.cull = cullModeName(options.cull);
-  if (bias.hasEpsilon) row.epsilonAt = epsilonAtName(params.epsilonAt);
+  if (bias.hasEpsilon) row.epsilonAt = epsilonAtName(entry.method.params.epsilonAt);
+  const LabelImage& labels = judged.labels;
   row.agree = labels.count(Label::Agree);
   row.acne = labels.count(Label::Acne);
   row.leak = labels.count(Label::Leak);
@@ -59,101 +61,194 @@ Row rowFor(const Parameterization& map, const BiasMethod& bias, const glsl::Bias
   row.uncovered = labels.count(Label::Uncovered);
   row.scored = row.agree + row.acne + row.leak + row.edgeShadow + row.edgeLight + row.uncovered;
   row.grazing = judged.grazing;
-  row.edgeOn = judged.edgeOn;
-  return row;
+  row.edgeOn = judged.edgeOn.size();
 }
 
-double rmseOf(const Exact& exact, const Judged& judged) {
-  size_t wrong = 0;
-  for (size_t i = 0; i < judged.verdicts.size(); ++i) {
-    if (exact.receivers.states[i] != PixelState::Scored) continue;
-    const bool lit = judged.verdicts[i] != Verdict::Shadow;
-    if (lit != (exact.truth.lit[i] != 0)) ++wrong;
-  }
-  return std::sqrt(static_cast<double>(wrong) / static_cast<double>(exact.receivers.scored));
-}
-
-// EXR for data: the visibility predicted and true, and the label's number (Label in truth/labels.h).
-ImageF dataImage(const Exact& exact, const Judged& judged) {
-  ImageF image(exact.receivers.width, exact.receivers.height, 3);
-  const std::vector<float> truth = truthVisibility(exact.receivers, exact.truth);
+double rmseOf(const Exact& exact, std::span<const float> visibility, std::span<const float> truth) {
+  double sum = 0.0;
   for (size_t i = 0; i < truth.size(); ++i) {
-    image.values[3 * i] = judged.visibility[i];
-    image.values[3 * i + 1] = truth[i];
-    image.values[3 * i + 2] = static_cast<float>(judged.labels.labels[i]);
+    if (exact.receivers.states[i] != PixelState::Scored) continue;
+    const double difference = static_cast<double>(visibility[i]) - static_cast<double>(truth[i]);
+    sum += difference * difference;
   }
-  return image;
+  return std::sqrt(sum / static_cast<double>(exact.receivers.scored));
 }
 
-void writeMapPictures(const Session& session, Passes& passes, const Exact& exact, const DrawnMap& map,
-                      const std::filesystem::path& folder) {
-  const std::vector<float> truth = truthVisibility(exact.receivers, exact.truth);
-  const ImageF metres = depthInMetres(session, map);
-  writePng(folder / "depth.png", depthPicture(metres));
-  writeExr(folder / "depth.exr", metres, {"metres"});
-  writePng(folder / "truth.png", visibilityPicture(exact.receivers, truth));
-  writePng(folder / "truth.beauty.png", toSrgb8(renderRadiance(session, passes, exact, truth)));
-}
-
-void writeRowPictures(const Session& session, Passes& passes, const Exact& exact, const Judged& judged,
-                      Row& row, const std::filesystem::path& outDir) {
-  const std::string stem = row.map + "/" + row.bias;
-  const std::string title = fmt::format("{} {}, {} x {} texels", row.map, row.bias, row.mapSide, row.mapSide);
-  writePng(outDir / (stem + ".labels.png"), labelPicture(exact.receivers, exact.truth, judged.labels, title));
-  writePng(outDir / (stem + ".visibility.png"), visibilityPicture(exact.receivers, judged.visibility));
-  writePng(outDir / (stem + ".beauty.png"),
-           toSrgb8(renderRadiance(session, passes, exact, judged.visibility)));
-  writeExr(outDir / (stem + ".exr"), dataImage(exact, judged), {"visibility", "truth", "label"});
-  row.pictures = {stem + ".labels.png", stem + ".visibility.png", stem + ".beauty.png", stem + ".exr"};
-}
-
-// Maps of one fit, by what they hold; drawn when first asked for.
-class MapSet {
+// Everything of one map: its rows, its summary, its pictures.
+class MapComparison {
  public:
-  MapSet(const Session& session, const MapRenderer& renderer, const FittedMap& fitted, const Exact& exact,
-         CullMode cull)
-      : session_(session), renderer_(renderer), fitted_(fitted), exact_(exact), cull_(cull) {}
+  MapComparison(const Session& session, const CompareOptions& options, Passes& passes,
+                const Parameterization& parameterization, Progress& progress)
+      : session_(session),
+        options_(options),
+        passes_(passes),
+        parameterization_(parameterization),
+        progress_(progress) {}
 
-  const DrawnMap& with(MapContent content) {
-    const auto found = maps_.find(content);
-    if (found != maps_.end()) return found->second;
-    return maps_.emplace(content, drawMap(session_, renderer_, fitted_, exact_, content, cull_))
-        .first->second;
+  void run(Comparison& comparison) {
+    step("exact shadow");
+    const Clock::time_point start = Clock::now();
+    exact_ = computeExact(session_, parameterization_);
+    TruthSummary summary = summarize(parameterization_, exact_);
+    summary.receiversAndTraceMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    step("map");
+    const Fit fit = fitMap(session_, parameterization_, exact_, mapSideOf(options_, parameterization_),
+                           options_.mapOptions);
+    summary.zNear = fit.fitted.zNear;
+    summary.zFar = fit.fitted.zFar;
+    summary.fitMs = fit.ms;
+    maps_ = std::make_unique<MapSet>(session_, passes_.map, fit.fitted, exact_, options_.cull);
+    for (const Filter* filter : options_.filters) filteredTruth(*filter);
+
+    std::vector<Entry> entries = chooseEntries();
+    for (Entry& entry : entries) {
+      entry.row = rows_.size();
+      step(entry.method.bias->name);
+      judgeEntry(entry);
+    }
+    timeRows(entries);
+    comparison.truths.push_back(summary);
+    comparison.maps.push_back(summarizeMap(fit.fitted));
+    comparison.rows.insert(comparison.rows.end(), rows_.begin(), rows_.end());
   }
 
  private:
+  void step(const std::string& what) {
+    progress_.step(fmt::format("{}: {}", parameterization_.name(), what));
+  }
+
+  const FilteredTruth& filteredTruth(const Filter& filter) {
+    const auto found = truths_.find(filter.id);
+    if (found != truths_.end()) return found->second;
+    FilteredTruth truth;
+    truth.visibility = computeFilteredTruth(session_.tracer(), exact_.light, exact_.receivers, exact_.truth,
+                                            maps_->fitted(), filter.id);
+    truth.beauty = toSrgb8(renderRadiance(session_, passes_, exact_, truth.visibility));
+    return truths_.emplace(filter.id, std::move(truth)).first->second;
+  }
+
+  // Each bias at the options' knobs, and where a search is wanted once more at its best.
+  std::vector<Entry> chooseEntries() {
+    std::vector<Entry> entries;
+    for (const BiasMethod* bias : options_.biases)
+      entries.push_back({.method = methodFor(session_, options_, *bias)});
+    if (!options_.tune) return entries;
+    Robustness robustness(session_, exact_, options_, parameterization_);
+    Trial trial(session_, passes_, exact_, *maps_);
+    const size_t count = entries.size();
+    for (size_t i = 0; i < count; ++i) {
+      if (knobsOf(*entries[i].method.bias).empty()) continue;
+      step(fmt::format("{}, searching its best knob", entries[i].method.bias->name));
+      const TunedMethod tuned = tune(trial, entries[i].method);
+      entries.push_back({.method = tuned.method, .tuning = robustness.judge(tuned)});
+    }
+    return entries;
+  }
+
+  void judgeEntry(const Entry& entry) {
+    const DrawnMap& map = maps_->with(entry.method.bias->content);
+    const Judged judged = judge(session_, passes_, map, exact_, entry.method);
+    for (const Filter* filter : options_.filters) {
+      const FilteredTruth& truth = filteredTruth(*filter);
+      std::vector<float> visibility =
+          filter->id == glsl::kFilterNone
+              ? judged.visibility
+              : gnomon::filteredVisibility(session_, passes_, map, exact_, entry.method, filter->id);
+      for (const size_t pixel : judged.edgeOn) visibility[pixel] = truth.visibility[pixel];
+      Row row;
+      row.map = parameterization_.name();
+      row.mapSide = map.fitted.map.side;
+      row.layers = map.fitted.map.layerCount;
+      row.cull = cullModeName(options_.cull);
+      row.filter = filter->name;
+      describe(row, entry, judged);
+      row.rmse = rmseOf(exact_, visibility, truth.visibility);
+      const int width = exact_.receivers.width, height = exact_.receivers.height;
+      row.worstAcne = findWorstPlace(judged.labels, width, height, Label::Acne);
+      row.worstLeak = findWorstPlace(judged.labels, width, height, Label::Leak);
+      const Image8 beauty = toSrgb8(renderRadiance(session_, passes_, exact_, visibility));
+      if (!options_.outDir.empty())
+        row.pictures =
+            writeRowPictures(exact_, judged, visibility, beauty, truth, namesOf(row), options_.outDir);
+      rows_.push_back(std::move(row));
+    }
+  }
+
+  RowPictureNames namesOf(const Row& row) const {
+    RowPictureNames names;
+    names.labelStem = fmt::format("{}/{}{}", row.map, row.bias, row.tuning ? ".tuned" : "");
+    names.stem = names.labelStem + (row.filter == "none" ? "" : "." + row.filter);
+    names.title = fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "",
+                              row.mapSide, row.mapSide);
+    names.writesLabels = row.filter == options_.filters.front()->name;
+    return names;
+  }
+
+  // Rounds run one after another through all rows, so that a machine that slows down slows all of them. A
+  // tuned row costs what its untuned one costs.
+  void timeRows(const std::vector<Entry>& entries) {
+    const size_t filterCount = options_.filters.size();
+    std::map<MapContent, std::vector<double>> build;
+    std::vector<std::vector<double>> shade(options_.biases.size() * filterCount);
+    for (int round = -1; round < options_.repeats;
+         ++round) {  // round -1 warms up: pipelines compile at first use
+      step(round < 0 ? "timing, warm-up" : fmt::format("timing, {} of {}", round + 1, options_.repeats));
+      std::map<MapContent, double> drawn;
+      for (const BiasMethod* bias : options_.biases)
+        if (!drawn.contains(bias->content)) drawn[bias->content] = maps_->redraw(bias->content);
+      if (round >= 0)
+        for (const auto& [content, ms] : drawn) build[content].push_back(ms);
+      for (size_t i = 0; i < shade.size(); ++i) {
+        const Method& method = entries[i / filterCount].method;
+        const double ms = timeVisibility(session_, passes_, maps_->with(method.bias->content), exact_, method,
+                                         options_.filters[i % filterCount]->id);
+        if (round >= 0) shade[i].push_back(ms);
+      }
+    }
+    for (const Entry& entry : entries) {
+      const auto like = std::ranges::find(options_.biases, entry.method.bias) - options_.biases.begin();
+      for (size_t f = 0; f < filterCount; ++f) {
+        rows_[entry.row + f].buildMs = median(build[entry.method.bias->content]);
+        rows_[entry.row + f].shadeMs = median(shade[static_cast<size_t>(like) * filterCount + f]);
+      }
+    }
+  }
+
+  MapSummary summarizeMap(const FittedMap& fitted) {
+    MapSummary summary{.map = parameterization_.name(),
+                       .side = fitted.map.side,
+                       .layers = fitted.map.layerCount,
+                       .zNear = fitted.zNear,
+                       .zFar = fitted.zFar};
+    if (options_.outDir.empty()) return summary;
+    const bool two = std::ranges::any_of(
+        options_.biases, [](const BiasMethod* b) { return b->content == MapContent::TwoLayers; });
+    const DrawnMap& map = maps_->with(two ? MapContent::TwoLayers : MapContent::OneLayer);
+    const FilteredTruth& plain = filteredTruth(filters().front());
+    summary.pictures = writeMapPictures(session_, exact_, map, plain, options_.outDir, summary.map);
+    for (const Filter* filter : options_.filters)
+      if (filter->id != glsl::kFilterNone)
+        summary.filteredTruths.emplace_back(
+            filter->name, writeFilteredTruth(exact_, filteredTruth(*filter), options_.outDir,
+                                             fmt::format("{}/truth.{}", summary.map, filter->name)));
+    return summary;
+  }
+
   const Session& session_;
-  const MapRenderer& renderer_;
-  const FittedMap& fitted_;
-  const Exact& exact_;
-  CullMode cull_;
-  std::map<MapContent, DrawnMap> maps_;
+  const CompareOptions& options_;
+  Passes& passes_;
+  const Parameterization& parameterization_;
+  Progress& progress_;
+  Exact exact_;
+  std::unique_ptr<MapSet> maps_;
+  std::map<int, FilteredTruth> truths_;  // by filter
+  std::vector<Row> rows_;
 };
 
-// Rounds run one after another through all biases, so that a machine that slows down slows all of them.
-void timeRows(const Session& session, Passes& passes, MapSet& maps, const Exact& exact,
-              const CompareOptions& options, const glsl::BiasParams& params, std::span<Row> rows) {
-  std::map<MapContent, std::vector<double>> build;
-  std::vector<std::vector<double>> shade(rows.size());
-  for (int round = -1; round < options.repeats;
-       ++round) {  // round -1 warms up: pipelines compile at first use
-    for (const BiasMethod* bias : options.biases) {
-      std::vector<double>& times = build[bias->content];
-      if (static_cast<int>(times.size()) > round + 1)
-        continue;  // a map that another bias of this round had drawn
-      times.push_back(redrawMap(session, passes.map, maps.with(bias->content), exact, options.cull));
-    }
-    for (size_t i = 0; i < rows.size(); ++i) {
-      const BiasMethod& bias = *options.biases[i];
-      const double shadeMs = timeVisibility(session, passes, maps.with(bias.content), exact, bias.id, params);
-      if (round >= 0) shade[i].push_back(shadeMs);
-    }
-  }
-  for (auto& [content, times] : build) times.erase(times.begin());  // the warm-up
-  for (size_t i = 0; i < rows.size(); ++i) {
-    rows[i].buildMs = median(build[options.biases[i]->content]);
-    rows[i].shadeMs = median(shade[i]);
-  }
+int stepsPerMap(const CompareOptions& options) {
+  const auto tuned = std::ranges::count_if(
+      options.biases, [&](const BiasMethod* bias) { return options.tune && !knobsOf(*bias).empty(); });
+  return 3 + options.repeats + static_cast<int>(options.biases.size()) + 2 * static_cast<int>(tuned);
 }
 
 }  // namespace
@@ -178,35 +273,44 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-glsl::BiasParams biasParams(const Session& session, const CompareOptions& options) {
-  glsl::BiasParams params = defaultBiasParams(computeBounds(session.scene()).diagonal());
-  params.epsilonAt = options.epsilonAt;
-  for (const KnobValue& knob : options.knobs) params.*knob.knob->field = knob.value;
-  return params;
+Method methodFor(const Session& session, const CompareOptions& options, const BiasMethod& bias) {
+  const float sceneScale = computeBounds(session.scene()).diagonal();
+  Method method{.bias = &bias, .params = defaultBiasParams(sceneScale)};
+  method.params.epsilonAt = options.epsilonAt;
+  for (const BiasKnob& knob : bias.knobs)  // a user's knob is in no list
+    method.params.*knob.field = knob.defaultValue * (knob.defaultOfSceneScale ? sceneScale : 1.0f);
+  for (const KnobValue& knob : options.knobs) method.params.*knob.knob->field = knob.value;
+  return method;
 }
 
-ImageF depthInMetres(const Session& session, const DrawnMap& map) {
-  const std::vector<float> depth = gpu::downloadAs<float>(session.device(), map.image->depth());
-  const int side = map.fitted.map.side;
-  ImageF metres(side * map.fitted.map.layerCount, side, 1);
-  for (int layer = 0; layer < map.fitted.map.layerCount; ++layer) {
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) {
-        const float d = depth[(static_cast<size_t>(layer) * side + y) * side + x];
-        const glsl::Ray ray =
-            glsl::mapTexelRay(map.fitted.map, layer, glsl::mapTexelCenter(map.fitted.map, {x, y}));
-        // The texel ray's origin is at the near end; distances are told from the light (its plane, when
-        // directional).
-        const float nearEnd = map.fitted.map.mapLayers[layer].clipFromLight[2][3] != 0.0f
-                                  ? glm::length(ray.origin)
-                                  : map.fitted.zNear;
-        *metres.at(layer * side + x, y) = d >= 1.0f
-                                              ? std::numeric_limits<float>::infinity()
-                                              : nearEnd + glsl::mapDistance(map.fitted.map, layer, ray, d);
+DepthImages depthInMetres(const Session& session, const DrawnMap& map) {
+  const glsl::ShadowMap& shape = map.fitted.map;
+  const bool positional = map.fitted.positional;
+  const std::vector<float> first = gpu::downloadAs<float>(session.device(), map.image->depth());
+  std::vector<float> second;
+  if (map.image->content() == MapContent::TwoLayers)
+    second = gpu::downloadAs<float>(session.device(), map.image->secondDepth());
+  const ImageF nothing(shape.side * shape.layerCount, shape.side, 1, std::numeric_limits<float>::infinity());
+  DepthImages images{.first = nothing};
+  if (!second.empty()) images.second = images.gap = nothing;
+  for (int layer = 0; layer < shape.layerCount; ++layer) {
+    for (int y = 0; y < shape.side; ++y) {
+      for (int x = 0; x < shape.side; ++x) {
+        const size_t texel = (static_cast<size_t>(layer) * shape.side + y) * shape.side + x;
+        const glsl::Ray ray = glsl::mapTexelRay(shape, layer, glsl::mapTexelCenter(shape, {x, y}));
+        const auto along = [&](float depth) { return glsl::mapDistance(shape, layer, ray, depth); };
+        const auto fromLight = [&](float depth) {
+          const glm::vec3 posL = ray.origin + ray.dir * along(depth);
+          return positional ? glm::length(posL) : -posL.z;
+        };
+        if (first[texel] < 1.0f) *images.first.at(layer * shape.side + x, y) = fromLight(first[texel]);
+        if (second.empty() || second[texel] >= 1.0f) continue;
+        *images.second->at(layer * shape.side + x, y) = fromLight(second[texel]);
+        *images.gap->at(layer * shape.side + x, y) = along(second[texel]) - along(first[texel]);
       }
     }
   }
-  return metres;
+  return images;
 }
 
 Comparison compare(const Session& session, const CompareOptions& options) {
@@ -216,38 +320,9 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   comparison.gbufferMs = median(gbuffer);
 
   Passes passes(session.device(), session.view());
-  const glsl::BiasParams params = biasParams(session, options);
-  Progress progress("compare", static_cast<int>(options.maps.size() * (options.biases.size() + 2)));
-  for (const Parameterization* parameterization : options.maps) {
-    progress.step(fmt::format("{}: exact shadow", parameterization->name()));
-    const Clock::time_point start = Clock::now();
-    const Exact exact = computeExact(session, *parameterization);
-    TruthSummary summary = summarize(*parameterization, exact);
-    summary.receiversAndTraceMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-
-    progress.step(fmt::format("{}: map", parameterization->name()));
-    const Fit fit =
-        fitMap(session, *parameterization, exact, mapSideOf(options, *parameterization), options.mapOptions);
-    MapSet maps(session, passes.map, fit.fitted, exact, options.cull);
-    summary.zNear = fit.fitted.zNear;
-    summary.zFar = fit.fitted.zFar;
-    summary.fitMs = fit.ms;
-    comparison.truths.push_back(summary);
-    if (!options.outDir.empty())
-      writeMapPictures(session, passes, exact, maps.with(MapContent::OneLayer),
-                       options.outDir / parameterization->name());
-
-    const size_t firstRow = comparison.rows.size();
-    for (const BiasMethod* bias : options.biases) {
-      progress.step(fmt::format("{}: {}", parameterization->name(), bias->name));
-      const Judged judged = judge(session, passes, maps.with(bias->content), exact, bias->id, params);
-      Row row = rowFor(*parameterization, *bias, params, options, judged);
-      row.rmse = rmseOf(exact, judged);
-      if (!options.outDir.empty()) writeRowPictures(session, passes, exact, judged, row, options.outDir);
-      comparison.rows.push_back(std::move(row));
-    }
-    timeRows(session, passes, maps, exact, options, params, std::span(comparison.rows).subspan(firstRow));
-  }
+  Progress progress("compare", static_cast<int>(options.maps.size()) * stepsPerMap(options));
+  for (const Parameterization* parameterization : options.maps)
+    MapComparison(session, options, passes, *parameterization, progress).run(comparison);
   return comparison;
 }
 

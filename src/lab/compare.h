@@ -1,9 +1,11 @@
 #pragma once
-// The main job: every chosen map with every chosen bias, against the exact shadow, pixel by pixel.
+// The main job: every chosen map with every chosen bias and filter, against the exact shadow, pixel by pixel.
 
 #include "lab/session.h"
+#include "shadow/user_bias.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,20 +20,49 @@ struct KnobValue {
 struct CompareOptions {
   std::vector<const Parameterization*> maps;
   std::vector<const BiasMethod*> biases;
-  int mapSide = 1024;     // texels of a layer's side
+  std::vector<const Filter*> filters = {&gnomon::filters().front()};
+  std::vector<std::shared_ptr<const UserBias>> userBiases;  // that `biases` names as well
+  int mapSide = 1024;                                       // texels of a layer's side
   int64_t mapTexels = 0;  // of all layers together; not 0: picks each map's side instead of mapSide
   MapOptions mapOptions;
   CullMode cull = CullMode::Solids;
   int epsilonAt = glsl::kEpsilonAtOccluder;
   std::vector<KnobValue> knobs;  // that differ from their defaults
-  int repeats = 5;               // of every timed stage; at least 1
+  bool tune = false;  // each method with a knob also at its best value, and how good that is elsewhere
+  int repeats = 5;    // of every timed stage; at least 1
   std::filesystem::path outDir;  // empty: no pictures
 };
 
 // The side of a map's layers, texels. Throws UsageError outside 2..16384.
 int mapSideOf(const CompareOptions& options, const Parameterization& map);
 
-// One method on one map. Counts add up to `scored`.
+// Names and paths below CompareOptions::outDir, in the order they are shown.
+using Pictures = std::vector<std::pair<std::string, std::string>>;
+
+// How good a tuned value is where it was not tuned.
+struct Elsewhere {
+  std::string where;           // the other camera, or the other map's side
+  double biasError = 0.0;      // with the tuned value
+  double bestBiasError = 0.0;  // with the value tuned there
+  double bestValue = 0.0;
+};
+
+struct Tuning {
+  std::string knob;  // the method's first
+  double value = 0.0;
+  std::string unit;
+  int evaluations = 0;
+  std::optional<Elsewhere> otherCamera, otherMapSize;
+};
+
+// The square of the picture with the most pixels of one label.
+struct WorstPlace {
+  int x = 0, y = 0;  // its upper left corner
+  int size = 0;
+  size_t pixels = 0;
+};
+
+// One method on one map through one filter. Counts are of the unfiltered map, and add up to `scored`.
 struct Row {
   std::string map;
   int mapSide = 0;
@@ -47,10 +78,13 @@ struct Row {
   size_t grazing = 0, edgeOn = 0;       // as in Judged
   double buildMs = 0.0, shadeMs = 0.0;  // medians, wall clock
   double biasError() const { return static_cast<double>(acne + leak) / static_cast<double>(scored); }
-  // Of the binary visibility against the truth: the square root of the share of wrong pixels. A pixel that
-  // the map does not cover counts as predicted lit.
+  // Of the visibility against the truth through the same filter, over the scored pixels. A pixel that the map
+  // does not cover counts as predicted lit.
   double rmse = 0.0;
-  std::vector<std::string> pictures;  // below outDir
+  std::optional<double> flip;    // mean FLIP of the shaded picture against the same by the truth
+  std::optional<Tuning> tuning;  // of rows whose knobs were searched
+  std::optional<WorstPlace> worstAcne, worstLeak;
+  Pictures pictures;  // labels, visibility, beauty, difference, data
 };
 
 // What was exact for one map's light.
@@ -65,21 +99,34 @@ struct TruthSummary {
   double receiversAndTraceMs = 0.0, fitMs = 0.0;
 };
 
+struct MapSummary {
+  std::string map;
+  int side = 0, layers = 0;
+  float zNear = 0.0f, zFar = 0.0f;
+  Pictures pictures;                                             // depth, second_depth, layer_gap, truth, ...
+  std::vector<std::pair<std::string, Pictures>> filteredTruths;  // by filter: visibility, beauty
+};
+
 struct Comparison {
   std::vector<TruthSummary> truths;  // one a map
-  std::vector<Row> rows;             // as they ran
+  std::vector<MapSummary> maps;
+  std::vector<Row> rows;  // as they ran
   double gbufferMs = 0.0;
 };
 
 // Throws WorldError. Long work shows progress.
 Comparison compare(const Session& session, const CompareOptions& options);
 
-// Bias parameters of a session under these options.
-glsl::BiasParams biasParams(const Session& session, const CompareOptions& options);
+// A bias with its knobs as the options have them, else at their defaults.
+Method methodFor(const Session& session, const CompareOptions& options, const BiasMethod& bias);
 
-// Metres along each texel's ray to what the map stores; infinity where it stores nothing. Layers side by
-// side.
-ImageF depthInMetres(const Session& session, const DrawnMap& map);
+// Metres from the light (its plane, when directional) to what the map stores, layers side by side; infinity
+// where it stores nothing. Both layers of a two-layer map, and their distance along the texel's ray.
+struct DepthImages {
+  ImageF first;
+  std::optional<ImageF> second, gap;
+};
+DepthImages depthInMetres(const Session& session, const DrawnMap& map);
 
 double median(std::vector<double> values);
 

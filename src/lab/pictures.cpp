@@ -165,6 +165,24 @@ Image8 visibilityPicture(const Receivers& receivers, std::span<const float> visi
   return image;
 }
 
+Image8 differencePicture(const Receivers& receivers, std::span<const float> visibility,
+                         std::span<const float> truth) {
+  Image8 image(receivers.width, receivers.height, 3);
+  for (size_t i = 0; i < truth.size(); ++i) {
+    glm::vec3 color(kNothing);
+    if (receivers.states[i] == PixelState::FacingAway || receivers.states[i] == PixelState::OutsideCone)
+      color = glm::vec3(kDark);
+    if (receivers.states[i] == PixelState::Scored) {
+      const float difference = std::max(visibility[i], 0.0f) - truth[i];
+      const glm::vec3 strong(labelColor(difference > 0.0f ? Label::Leak : Label::Acne));
+      const glm::vec3 calm = glm::mix(glm::vec3(kAgreeShadow), glm::vec3(kAgreeLit), truth[i]);
+      color = glm::mix(calm, strong, std::sqrt(std::abs(difference)));
+    }
+    for (int c = 0; c < 3; ++c) image.values[3 * i + c] = static_cast<uint8_t>(std::lround(color[c]));
+  }
+  return image;
+}
+
 Image8 depthPicture(const ImageF& metres) {
   float nearest = std::numeric_limits<float>::infinity();
   float farthest = 0.0f;

@@ -19,6 +19,11 @@ Image8 labelPicture(const Receivers& receivers, const Truth& truth, const LabelI
 // One value a pixel: 1 white, 0 black; kUnknownVisibility magenta; pixels without a surface dark blue.
 Image8 visibilityPicture(const Receivers& receivers, std::span<const float> visibility);
 
+// Where visibility differs from the truth: blue where it is lighter, vermillion where it is darker, stronger
+// the more; grey shades of the truth elsewhere.
+Image8 differencePicture(const Receivers& receivers, std::span<const float> visibility,
+                         std::span<const float> truth);
+
 // The truth in the same shades.
 std::vector<float> truthVisibility(const Receivers& receivers, const Truth& truth);
 

@@ -59,6 +59,48 @@ Json toJson(const TruthSummary& truth) {
   return json;
 }
 
+Json toJson(const Pictures& pictures) {
+  Json json = Json::object();
+  for (const auto& [name, path] : pictures) json[name] = path;
+  return json;
+}
+
+Json toJson(const std::optional<WorstPlace>& place) {
+  if (!place) return nullptr;
+  return {{"x", place->x}, {"y", place->y}, {"size", place->size}, {"pixels", place->pixels}};
+}
+
+Json toJson(const std::optional<Elsewhere>& elsewhere, const char* where) {
+  if (!elsewhere) return nullptr;
+  return {{where, elsewhere->where},
+          {"bias_error", elsewhere->biasError},
+          {"best_bias_error", elsewhere->bestBiasError},
+          {"best_value", shortest(static_cast<float>(elsewhere->bestValue))}};
+}
+
+Json toJson(const std::optional<Tuning>& tuning) {
+  if (!tuning) return nullptr;
+  return {{"knob", tuning->knob},
+          {"value", shortest(static_cast<float>(tuning->value))},
+          {"unit", tuning->unit},
+          {"evaluations", tuning->evaluations},
+          {"other_camera", toJson(tuning->otherCamera, "camera")},
+          {"other_map_size", toJson(tuning->otherMapSize, "map_size")}};
+}
+
+Json toJson(const MapSummary& map) {
+  Json json;
+  json["map"] = map.map;
+  json["map_size"] = map.side;
+  json["layers"] = map.layers;
+  json["z_near"] = shortest(map.zNear);
+  json["z_far"] = shortest(map.zFar);
+  json["pictures"] = toJson(map.pictures);
+  json["truth_filtered"] = Json::object();
+  for (const auto& [filter, pictures] : map.filteredTruths) json["truth_filtered"][filter] = toJson(pictures);
+  return json;
+}
+
 Json toJson(const Row& row, double gbufferMs) {
   Json params = Json::object();
   for (const auto& [name, value] : row.knobs) params[name] = shortest(static_cast<float>(value));
@@ -73,6 +115,7 @@ Json toJson(const Row& row, double gbufferMs) {
   json["bias"] = row.bias;
   json["params"] = params;
   json["filter"] = row.filter;
+  json["tuned"] = row.tuning.has_value();
   json["scored"] = row.scored;
   json["agree"] = row.agree;
   json["acne"] = row.acne;
@@ -84,10 +127,14 @@ Json toJson(const Row& row, double gbufferMs) {
   json["edge_on"] = row.edgeOn;
   json["bias_error"] = row.biasError();
   json["rmse"] = row.rmse;
+  json["flip"] = row.flip ? Json(*row.flip) : Json(nullptr);
   json["build_ms"] = row.buildMs;
   json["shade_ms"] = row.shadeMs;
   json["frame_ms"] = gbufferMs + row.buildMs + row.shadeMs;
-  json["pictures"] = row.pictures;
+  json["tuning"] = toJson(row.tuning);
+  json["worst_acne"] = toJson(row.worstAcne);
+  json["worst_leak"] = toJson(row.worstLeak);
+  json["pictures"] = toJson(row.pictures);
   return json;
 }
 
@@ -122,6 +169,8 @@ std::string resultsJson(const Session& session, const SetupOptions& setup, const
   json["truth"] = toJson(comparison.truths.front());
   json["truths"] = Json::array();
   for (const TruthSummary& truth : comparison.truths) json["truths"].push_back(toJson(truth));
+  json["maps"] = Json::array();
+  for (const MapSummary& map : comparison.maps) json["maps"].push_back(toJson(map));
   json["rows"] = Json::array();
   for (const Row& row : comparison.rows) json["rows"].push_back(toJson(row, comparison.gbufferMs));
   return json.dump(2) + "\n";

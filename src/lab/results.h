@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-inline constexpr int kResultsVersion = 1;
+inline constexpr int kResultsVersion = 2;
 
 const char* gnomonVersion();
 

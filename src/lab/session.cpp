@@ -37,47 +37,58 @@ glm::dvec3 aimOf(const Session& session, const Light& light) {
   return glm::length(sum) > 0.0 ? glm::normalize(sum) : glm::dvec3(0, -1, 0);
 }
 
-Verdict verdictOf(const glsl::PixelDiagnosis& pixel) {
-  if ((pixel.flags & glsl::kPixelShaded) == 0) return Verdict::NotAsked;
-  if ((pixel.flags & glsl::kPixelCovered) == 0) return Verdict::Uncovered;
-  return (pixel.flags & glsl::kPixelLit) != 0 ? Verdict::Lit : Verdict::Shadow;
-}
-
 }  // namespace
 
 Session::Session(const gpu::DeviceOptions& deviceOptions, const SetupOptions& options)
     : setup_(options),
-      scene_(openScene(options.scene)),
-      tracer_(std::make_unique<Tracer>(scene_)),
+      scene_(std::make_shared<const Scene>(openScene(options.scene))),
+      tracer_(std::make_shared<const Tracer>(*scene_)),
       device_(gpu::Device::create(deviceOptions)) {
   const PictureSize size = parseSize(options.size);
   camera_ = chooseCamera(options, *tracer_);
-  view_ = cameraView(camera_, size.width, size.height);
-  buffers_ = createSceneBuffers(*device_, scene_);
-  gbuffer_ = std::make_unique<GBuffer>(*device_, size.width, size.height);
+  buffers_ = std::make_shared<const SceneBuffers>(createSceneBuffers(*device_, *scene_));
+  drawGBuffer(size.width, size.height);
+}
+
+Session::Session(const Session& other, const Camera& camera)
+    : setup_(other.setup_),
+      scene_(other.scene_),
+      tracer_(other.tracer_),
+      device_(other.device_),
+      buffers_(other.buffers_),
+      camera_(camera) {
+  drawGBuffer(other.view().width, other.view().height);
+}
+
+void Session::drawGBuffer(int width, int height) {
+  view_ = cameraView(camera_, width, height);
+  gbuffer_ = std::make_unique<GBuffer>(*device_, width, height);
   timeGBuffer();
-  ids_ = downloadPrimitiveIds(*device_, *gbuffer_, buffers_);
+  ids_ = downloadPrimitiveIds(*device_, *gbuffer_, *buffers_);
 }
 
 double Session::timeGBuffer() const {
   gpu::Commands commands(*device_, "G-buffer");
-  gbuffer_->record(commands, buffers_, view_);
+  gbuffer_->record(commands, *buffers_, view_);
   return commands.submitAndWait().wallMs;
 }
 
+Exact traceExact(const Session& session, const Light& source, const LightModel& light) {
+  Exact exact{.source = source, .light = light};
+  exact.receivers = computeReceivers(session.tracer(), session.view(), light, session.primitiveIds());
+  exact.truth = computeTruth(session.tracer(), light, exact.receivers);
+  return exact;
+}
+
 Exact computeExact(const Session& session, const Parameterization& parameterization) {
-  Exact exact;
-  exact.source = chooseLight(session.setup(), session.tracer(), parameterization);
-  const glm::dvec3 aimW =
-      exact.source.type == LightType::Point ? aimOf(session, exact.source) : glm::dvec3(0.0);
-  exact.light = parameterization.lightModel(exact.source, aimW);
-  exact.receivers = computeReceivers(session.tracer(), session.view(), exact.light, session.primitiveIds());
+  const Light source = chooseLight(session.setup(), session.tracer(), parameterization);
+  const glm::dvec3 aimW = source.type == LightType::Point ? aimOf(session, source) : glm::dvec3(0.0);
+  Exact exact = traceExact(session, source, parameterization.lightModel(source, aimW));
   if (exact.receivers.scored == 0)
     throw WorldError(fmt::format(
         "light '{}', camera '{}': the camera sees no surface that faces the light; move one of them "
         "with --light or --camera",
-        exact.source.name, session.camera().name));
-  exact.truth = computeTruth(session.tracer(), exact.light, exact.receivers);
+        source.name, session.camera().name));
   return exact;
 }
 
@@ -115,11 +126,18 @@ double redrawMap(const Session& session, const MapRenderer& renderer, const Draw
 }
 
 double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
-                      int method, const glsl::BiasParams& params) {
-  passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, params));
+                      const Method& method, int filter) {
+  passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, method.params));
   gpu::Commands commands(session.device(), "visibility");
-  passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, method, false);
+  passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, *method.bias, false,
+                           filter);
   return commands.submitAndWait().wallMs;
+}
+
+std::vector<float> filteredVisibility(const Session& session, Passes& passes, const DrawnMap& map,
+                                      const Exact& exact, const Method& method, int filter) {
+  timeVisibility(session, passes, map, exact, method, filter);
+  return gpu::downloadAs<float>(session.device(), passes.visibility.visibility());
 }
 
 RayD texelRayW(const FittedMap& fitted, uint32_t texelWord) {
@@ -131,15 +149,24 @@ RayD texelRayW(const FittedMap& fitted, uint32_t texelWord) {
           .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))};
 }
 
-Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact, int method,
-             const glsl::BiasParams& params) {
-  passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, params));
-  gpu::Commands commands(session.device(), "visibility, diagnosed");
-  passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, method, true);
-  commands.submitAndWait();
-  const auto diagnosis =
-      gpu::downloadAs<glsl::PixelDiagnosis>(session.device(), passes.visibility.diagnosis());
+Verdict verdictOf(const glsl::PixelDiagnosis& pixel) {
+  if ((pixel.flags & glsl::kPixelShaded) == 0) return Verdict::NotAsked;
+  if ((pixel.flags & glsl::kPixelCovered) == 0) return Verdict::Uncovered;
+  return (pixel.flags & glsl::kPixelLit) != 0 ? Verdict::Lit : Verdict::Shadow;
+}
 
+std::vector<glsl::PixelDiagnosis> diagnose(const Session& session, Passes& passes, const DrawnMap& map,
+                                           const Exact& exact, const Method& method) {
+  passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, method.params));
+  gpu::Commands commands(session.device(), "visibility, diagnosed");
+  passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, *method.bias, true);
+  commands.submitAndWait();
+  return gpu::downloadAs<glsl::PixelDiagnosis>(session.device(), passes.visibility.diagnosis());
+}
+
+Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
+             const Method& method) {
+  const std::vector<glsl::PixelDiagnosis> diagnosis = diagnose(session, passes, map, exact, method);
   Judged judged;
   judged.visibility = gpu::downloadAs<float>(session.device(), passes.visibility.visibility());
   judged.verdicts.resize(diagnosis.size());
@@ -148,7 +175,7 @@ Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const 
     if (exact.receivers.states[i] != PixelState::Scored) continue;
     if ((diagnosis[i].flags & glsl::kPixelGrazing) != 0) ++judged.grazing;
     if (judged.verdicts[i] == Verdict::NotAsked) {
-      ++judged.edgeOn;
+      judged.edgeOn.push_back(i);
       judged.verdicts[i] = exact.truth.lit[i] != 0 ? Verdict::Lit : Verdict::Shadow;
     }
   }

@@ -17,11 +17,13 @@ class Session {
  public:
   // Opens the scene, chooses the camera, uploads, draws the G-buffer. Throws WorldError, UsageError.
   Session(const gpu::DeviceOptions& device, const SetupOptions& options);
+  // The same scene on the same device, seen by another camera.
+  Session(const Session& other, const Camera& camera);
 
-  const Scene& scene() const { return scene_; }
+  const Scene& scene() const { return *scene_; }
   const Tracer& tracer() const { return *tracer_; }
   const gpu::Device& device() const { return *device_; }
-  const SceneBuffers& buffers() const { return buffers_; }
+  const SceneBuffers& buffers() const { return *buffers_; }
   const GBuffer& gbuffer() const { return *gbuffer_; }
   const Camera& camera() const { return camera_; }
   const glsl::CameraView& view() const { return view_; }
@@ -32,11 +34,13 @@ class Session {
   double timeGBuffer() const;
 
  private:
+  void drawGBuffer(int width, int height);
+
   SetupOptions setup_;
-  Scene scene_;
-  std::unique_ptr<Tracer> tracer_;
-  std::unique_ptr<gpu::Device> device_;
-  SceneBuffers buffers_;
+  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const Tracer> tracer_;
+  std::shared_ptr<const gpu::Device> device_;
+  std::shared_ptr<const SceneBuffers> buffers_;
   std::unique_ptr<GBuffer> gbuffer_;
   Camera camera_;
   glsl::CameraView view_{};
@@ -50,7 +54,10 @@ struct Exact {
   Receivers receivers;
   Truth truth;
 };
+// Throws WorldError where the camera sees nothing that faces the light.
 Exact computeExact(const Session& session, const Parameterization& parameterization);
+// The same for a light that is taken already; nothing may be scored.
+Exact traceExact(const Session& session, const Light& source, const LightModel& light);
 
 // A map fitted to what the camera sees, and how long that took.
 struct Fit {
@@ -80,9 +87,19 @@ struct Passes {
       : map(device), visibility(device, view.width, view.height), radiance(device, view.width, view.height) {}
 };
 
-// One visibility pass without diagnosis; wall clock.
+// A bias with its knobs set.
+struct Method {
+  const BiasMethod* bias = nullptr;
+  glsl::BiasParams params{};
+};
+
+// One visibility pass without diagnosis; wall clock. `filter`: kFilter*.
 double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
-                      int method, const glsl::BiasParams& params);
+                      const Method& method, int filter);
+
+// The same, and what it says: one value a pixel.
+std::vector<float> filteredVisibility(const Session& session, Passes& passes, const DrawnMap& map,
+                                      const Exact& exact, const Method& method, int filter);
 
 // One bias on one map: what it says of every pixel, and why it is wrong where it is.
 struct Judged {
@@ -91,11 +108,16 @@ struct Judged {
   LabelImage labels;
   // Scored pixels that the shader's floats take for facing away: edge-on to the light or the camera within
   // rounding, where no light arrives either way. They count as agreeing.
-  size_t edgeOn = 0;
+  std::vector<size_t> edgeOn;
   size_t grazing = 0;  // scored pixels whose texel ray does not meet their plane between near and far
 };
-Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact, int method,
-             const glsl::BiasParams& params);
+Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
+             const Method& method);
+
+// The verdicts alone, and the texel that decided each pixel.
+std::vector<glsl::PixelDiagnosis> diagnose(const Session& session, Passes& passes, const DrawnMap& map,
+                                           const Exact& exact, const Method& method);
+Verdict verdictOf(const glsl::PixelDiagnosis& pixel);
 
 // Linear rgb by a given visibility, exposed so that a typical lit surface is neither dark nor burnt.
 ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact,

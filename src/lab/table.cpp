@@ -22,6 +22,42 @@ std::string knobText(const Row& row) {
   return text;
 }
 
+std::string biasText(const Row& row) {
+  return row.bias + (row.tuning ? " (tuned)" : "");
+}
+
+// The row of a bias on a map, unfiltered counts being the same for all filters.
+const Row* findRow(const Comparison& comparison, const std::string& map, const std::string& bias,
+                   bool tuned) {
+  for (const Row& row : comparison.rows)
+    if (row.map == map && row.bias == bias && row.tuning.has_value() == tuned) return &row;
+  return nullptr;
+}
+
+// "adaptive (default) against the best constant: 120 / 40 = 3.0". More than 1: better.
+std::string factorLines(const Comparison& comparison) {
+  std::string text;
+  for (const MapSummary& map : comparison.maps) {
+    for (const char* bias : {"dual", "adaptive"}) {
+      for (const bool tuned : {false, true}) {
+        const Row* row = findRow(comparison, map.map, bias, tuned);
+        for (const char* rivalName : {"constant", "slope"}) {
+          const Row* rival = findRow(comparison, map.map, rivalName, true);
+          if (row == nullptr || rival == nullptr) continue;
+          const size_t mine = row->acne + row->leak, theirs = rival->acne + rival->leak;
+          const std::string factor =
+              mine > 0     ? fmt::format("{:.2f}", static_cast<double>(theirs) / static_cast<double>(mine))
+              : theirs > 0 ? std::string("infinite")
+                           : std::string("1 (both none)");
+          text += fmt::format("{} {} against the best {}: {} / {} wrong pixels = {}\n", map.map,
+                              biasText(*row), rivalName, theirs, mine, factor);
+        }
+      }
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<Row> ranked(std::vector<Row> rows) {
@@ -33,18 +69,37 @@ std::vector<Row> ranked(std::vector<Row> rows) {
 std::string comparisonTable(const Comparison& comparison) {
   size_t knobWidth = 5;
   for (const Row& row : comparison.rows) knobWidth = std::max(knobWidth, knobText(row).size());
-  std::string text =
-      fmt::format("{:<16} {:<16} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>7} {:>9} {:>9}\n",
-                  "map", "bias", "knobs", knobWidth, "agree", "acne", "leak", "edge_sh", "edge_li",
-                  "uncovered", "bias error", "rmse", "build ms", "shade ms");
+  std::string text = fmt::format(
+      "{:<16} {:<23} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>7} {:>7} {:>9} {:>9}\n",
+      "map", "bias", "filter", "knobs", knobWidth, "agree", "acne", "leak", "edge_sh", "edge_li", "uncovered",
+      "bias error", "rmse", "flip", "build ms", "shade ms");
   for (const Row& row : ranked(comparison.rows)) {
     text += fmt::format(
-        "{:<16} {:<16} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9.4f}% {:>7.4f} {:>9.2f} {:>9.2f}\n",
-        fmt::format("{} {}", row.map, row.mapSide), row.bias, knobText(row), knobWidth, row.agree, row.acne,
-        row.leak, row.edgeShadow, row.edgeLight, row.uncovered, 100.0 * row.biasError(), row.rmse,
-        row.buildMs, row.shadeMs);
+        "{:<16} {:<23} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9.4f}% {:>7.4f} {:>7} {:>9.2f} "
+        "{:>9.2f}\n",
+        fmt::format("{} {}", row.map, row.mapSide), biasText(row), row.filter, knobText(row), knobWidth,
+        row.agree, row.acne, row.leak, row.edgeShadow, row.edgeLight, row.uncovered, 100.0 * row.biasError(),
+        row.rmse, row.flip ? fmt::format("{:.4f}", *row.flip) : "", row.buildMs, row.shadeMs);
   }
   return text;
+}
+
+std::string tuningTable(const Comparison& comparison) {
+  std::string text;
+  for (const Row& row : comparison.rows) {
+    if (!row.tuning || row.filter != comparison.rows.front().filter) continue;
+    const Tuning& tuning = *row.tuning;
+    text += fmt::format("tuned {} {}: {} in {} tries; bias error {:.4f}%", row.map, row.bias, knobText(row),
+                        tuning.evaluations, 100.0 * row.biasError());
+    if (tuning.otherCamera)
+      text += fmt::format("; camera {} {:.4f}% (best there {:.4f}%)", tuning.otherCamera->where,
+                          100.0 * tuning.otherCamera->biasError, 100.0 * tuning.otherCamera->bestBiasError);
+    if (tuning.otherMapSize)
+      text += fmt::format("; map of {} {:.4f}% (best there {:.4f}%)", tuning.otherMapSize->where,
+                          100.0 * tuning.otherMapSize->biasError, 100.0 * tuning.otherMapSize->bestBiasError);
+    text += "\n";
+  }
+  return text + factorLines(comparison);
 }
 
 std::string comparisonHeader(const Session& session, const Comparison& comparison) {

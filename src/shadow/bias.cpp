@@ -39,7 +39,9 @@ BiasKnob metres(const char* name, float share, const char* sentence, float BiasP
           .defaultValue = share,
           .defaultOfSceneScale = true,
           .sentence = sentence,
-          .field = field};
+          .field = field,
+          .searchLower = 1e-7f,
+          .searchUpper = 1e-1f};
 }
 
 }  // namespace
@@ -50,14 +52,7 @@ const std::vector<BiasMethod>& biasMethods() {
       {.id = glsl::kBiasConstant,
        .name = "constant",
        .sentence = "Moves the receiver a fixed distance towards the light (Reeves et al. 1987).",
-       .knobs = {{.name = "offset",
-                  .unit = Unit::Metres,
-                  .lower = 0.0f,
-                  .upper = 1e6f,
-                  .defaultValue = 2e-3f,
-                  .defaultOfSceneScale = true,
-                  .sentence = "distance towards the light",
-                  .field = &BiasParams::constantOffset}}},
+       .knobs = {metres("offset", 2e-3f, "distance towards the light", &BiasParams::constantOffset)}},
       {.id = glsl::kBiasSlope,
        .name = "slope",
        .sentence = "Scales with the depth change of the receiver's plane across half a texel (King 2004).",
@@ -68,15 +63,10 @@ const std::vector<BiasMethod>& biasMethods() {
                   .defaultValue = 2.0f,
                   .defaultOfSceneScale = false,
                   .sentence = "times the plane's depth change across half a texel",
-                  .field = &BiasParams::slopeFactor},
-                 {.name = "offset",
-                  .unit = Unit::Metres,
-                  .lower = 0.0f,
-                  .upper = 1e6f,
-                  .defaultValue = 1e-4f,
-                  .defaultOfSceneScale = true,
-                  .sentence = "distance towards the light, added",
-                  .field = &BiasParams::slopeOffset}}},
+                  .field = &BiasParams::slopeFactor,
+                  .searchLower = 1e-2f,
+                  .searchUpper = 64.0f},
+                 metres("offset", 1e-4f, "distance towards the light, added", &BiasParams::slopeOffset)}},
       {.id = glsl::kBiasNormalOffset,
        .name = "normal-offset",
        .sentence = "Moves the receiver along its normal before it is looked up (Holbert 2011).",
@@ -87,7 +77,9 @@ const std::vector<BiasMethod>& biasMethods() {
                   .defaultValue = 1.5f,
                   .defaultOfSceneScale = false,
                   .sentence = "distance along the normal, times the sine of its angle to the light",
-                  .field = &BiasParams::normalOffsetTexels}}},
+                  .field = &BiasParams::normalOffsetTexels,
+                  .searchLower = 1e-2f,
+                  .searchUpper = 64.0f}}},
       {.id = glsl::kBiasCosine,
        .name = "cosine",
        .sentence = "A constant weighted by the angle between normal and light (Gautron et al. 2013).",
@@ -126,7 +118,9 @@ const std::vector<BiasMethod>& biasMethods() {
              .defaultOfSceneScale = false,
              .sentence =
                  "epsilon as a share of the scene's diagonal (the paper's K), for all three adaptive methods",
-             .field = &BiasParams::adaptiveK}},
+             .field = &BiasParams::adaptiveK,
+             .searchLower = 1e-7f,
+             .searchUpper = 1e-1f}},
        .hasEpsilon = true},
       {.id = glsl::kBiasAdaptiveClamped,
        .name = "adaptive-clamped",
@@ -154,6 +148,10 @@ std::string biasNames() {
 constexpr std::array<const char*, 3> kEpsilonAtNames = {"fragment", "occluder", "stored"};
 
 }  // namespace
+
+const std::vector<BiasKnob>& knobsOf(const BiasMethod& method) {
+  return method.hasEpsilon ? findBias("adaptive").knobs : method.knobs;
+}
 
 const BiasMethod& findBias(const std::string& name) {
   for (const BiasMethod& method : biasMethods())

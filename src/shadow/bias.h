@@ -22,6 +22,9 @@ struct BiasKnob {
   bool defaultOfSceneScale;
   const char* sentence;
   float glsl::BiasParams::*field;
+  // Where a search for the best value looks, in the unit of the default (of the scene's diagonal, where that
+  // is).
+  float searchLower = 0.0f, searchUpper = 0.0f;
 };
 
 // What a map must hold for a method.
@@ -33,17 +36,23 @@ enum class MapContent {
 
 const char* contentName(MapContent content);  // "one layer", "two layers", "back faces"
 
+struct UserBias;
+
 struct BiasMethod {
   int id;  // kBias*
   const char* name;
   const char* sentence;  // what it does and where it comes from
   std::vector<BiasKnob> knobs;
   MapContent content = MapContent::OneLayer;
-  bool hasEpsilon = false;  // takes --epsilon-at
+  bool hasEpsilon = false;         // takes --epsilon-at
+  const UserBias* user = nullptr;  // of --bias-file (user_bias.h)
 };
 
 // In the order they are listed and run.
 const std::vector<BiasMethod>& biasMethods();
+
+// A method's knobs; the three adaptive methods share one, which is adaptive's in the list.
+const std::vector<BiasKnob>& knobsOf(const BiasMethod& method);
 
 // Throws UsageError that lists the names.
 const BiasMethod& findBias(const std::string& name);

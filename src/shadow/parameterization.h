@@ -25,6 +25,7 @@ struct FittedMap {
   // Clip distances of layer 0 along the light's axis, metres; for reports.
   float zNear = 0.0f;
   float zFar = 0.0f;
+  bool positional = true;  // the light is a point, and L's origin is there
 };
 
 // What a map may be fitted to.

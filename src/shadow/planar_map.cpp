@@ -94,6 +94,7 @@ FittedMap fitPlanar(const FitInput& input, bool perspective) {
 
   FittedMap fitted;
   fitted.frame = toShared(frame);
+  fitted.positional = perspective;
   fitted.zNear = static_cast<float>(range.zNear);
   fitted.zFar = static_cast<float>(range.zFar);
   fitted.map = {};

@@ -1,5 +1,9 @@
 #include "shadow/visibility_pass.h"
 
+#include "base/check.h"
+#include "base/error.h"
+#include "shadow/user_bias.h"
+
 #include <cmath>
 
 namespace gnomon {
@@ -14,6 +18,21 @@ glm::uvec3 groupsFor(int width, int height) {
 
 VkDeviceSize pixelBytes(int width, int height, size_t each) {
   return static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height) * each;
+}
+
+gpu::ComputeProgram createProgram(const gpu::Device& device, const UserBias* user,
+                                  const std::vector<gpu::Specialization>& constants) {
+  constexpr const char* kShader = "shadow/shade_visibility.comp.glsl";
+  if (user == nullptr) return {device, {kShader, {}}, constants};
+  constexpr std::string_view kUserPath = "shared/bias/user.glsl";
+  try {
+    return {device, {kShader, {{std::string(kUserPath), user->source}}}, constants};
+  } catch (const WorldError& error) {  // the compiler knows the file by the name it takes the place of
+    std::string message = error.what();
+    for (size_t at = 0; (at = message.find(kUserPath, at)) != std::string::npos; at += user->path.size())
+      message.replace(at, kUserPath.size(), user->path);
+    throw WorldError(message);
+  }
 }
 
 }  // namespace
@@ -50,22 +69,24 @@ void VisibilityPass::setUniforms(const glsl::ShadeUniforms& uniforms) {
 const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
   for (const auto& variant : variants_)
     if (variant->key == key) return variant->program;
-  variants_.push_back(std::make_unique<Variant>(
-      Variant{key, gpu::ComputeProgram(device_, {"shadow/shade_visibility.comp.glsl", {}},
-                                       {{.id = 0, .value = key.method},
-                                        {.id = 1, .value = key.diagnose},
-                                        {.id = 2, .value = key.mapKind},
-                                        {.id = 3, .value = key.layerCount},
-                                        {.id = 4, .value = key.instanced},
-                                        {.id = 5, .value = key.secondLayer}})}));
+  variants_.push_back(
+      std::make_unique<Variant>(Variant{key, createProgram(device_, key.user,
+                                                           {{.id = 0, .value = key.method},
+                                                            {.id = 1, .value = key.diagnose},
+                                                            {.id = 2, .value = key.mapKind},
+                                                            {.id = 3, .value = key.layerCount},
+                                                            {.id = 4, .value = key.instanced},
+                                                            {.id = 5, .value = key.secondLayer},
+                                                            {.id = 6, .value = key.filter}})}));
   return variants_.back()->program;
 }
 
 void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                            const MapImage& map, int method, bool diagnose) {
+                            const MapImage& map, const BiasMethod& method, bool diagnose, int filter) {
+  GNOMON_CHECK(!diagnose || filter == glsl::kFilterNone);
   const bool twoLayers = map.content() == MapContent::TwoLayers;
-  commands.dispatch(program({method, diagnose ? 1 : 0, map.kind(), map.layerCount(), scene.instanced ? 1 : 0,
-                             twoLayers ? 1 : 0}),
+  commands.dispatch(program({method.id, diagnose ? 1 : 0, map.kind(), map.layerCount(),
+                             scene.instanced ? 1 : 0, twoLayers ? 1 : 0, filter, method.user}),
                     groupCount_, {},
                     {{glsl::kBindPositions, scene.positions},
                      {glsl::kBindTriangles, scene.triangles},

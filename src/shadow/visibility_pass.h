@@ -3,6 +3,7 @@
 
 #include "scene/gbuffer.h"
 #include "shadow/bias.h"
+#include "shadow/filter.h"
 #include "shadow/map_image.h"
 
 #include <span>
@@ -18,9 +19,10 @@ class VisibilityPass {
  public:
   VisibilityPass(const gpu::Device& device, int width, int height);
 
-  // `method`: kBias*. Compiles its pipeline on first use.
+  // Compiles its pipeline on first use; throws WorldError that names a user's file and line where that does
+  // not compile. A diagnosis is of the unfiltered map: with a filter there is none.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const MapImage& map,
-              int method, bool diagnose);
+              const BiasMethod& method, bool diagnose, int filter = glsl::kFilterNone);
 
   void setUniforms(const glsl::ShadeUniforms& uniforms);
 
@@ -31,7 +33,8 @@ class VisibilityPass {
  private:
   // Specialization constants of shade_visibility.comp.glsl, in the order of their ids.
   struct VariantKey {
-    int32_t method, diagnose, mapKind, layerCount, instanced, secondLayer;
+    int32_t method, diagnose, mapKind, layerCount, instanced, secondLayer, filter;
+    const UserBias* user;
     bool operator==(const VariantKey&) const = default;
   };
   struct Variant {

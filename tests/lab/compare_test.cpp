@@ -126,7 +126,7 @@ TEST(Compare, NoPictureHasANanOrAnInfinity) {
       for (const BiasMethod& bias : biasMethods()) {
         const DrawnMap drawn =
             drawMap(session, passes.map, fit.fitted, exact, bias.content, CullMode::Solids);
-        const Judged judged = judge(session, passes, drawn, exact, bias.id, biasParams(session, {}));
+        const Judged judged = judge(session, passes, drawn, exact, methodFor(session, {}, bias));
         for (const float v : judged.visibility)
           ASSERT_TRUE(v == 0.0f || v == 1.0f) << scene << " " << bias.name;
         for (const float v : renderRadiance(session, passes, exact, judged.visibility).values)

@@ -21,10 +21,10 @@ class VisibilityPassTest : public gpu::GpuTest {
   // With the map that the method needs.
   Scored score(const test::Rendered& r, const BiasMethod& method) {
     const auto image = test::draw(device(), r, method.content, CullMode::Solids);
-    return score(r, *image, method.id);
+    return score(r, *image, method);
   }
 
-  Scored score(const test::Rendered& r, const MapImage& image, int method) {
+  Scored score(const test::Rendered& r, const MapImage& image, const BiasMethod& method) {
     VisibilityPass pass(device(), r.view.width, r.view.height);
     pass.setUniforms(shadeUniforms(r.view, r.light, defaultBiasParams(r.fitted.map.sceneScale)));
     gpu::Commands commands(device(), "visibility");
@@ -114,7 +114,7 @@ TEST_F(VisibilityPassTest, TheConcaveCornerHasAcneAndNoEdges) {
 TEST_F(VisibilityPassTest, AnUnknownMethodIsMarkedForMagenta) {
   const test::Rendered r =
       test::render(device(), "contact", spotParameterization(), 64, 64, CullMode::Solids);
-  const Scored result = score(r, *r.image, 999);
+  const Scored result = score(r, *r.image, {.id = 999, .name = "none of them"});
   const auto marked = std::ranges::count(result.visibility, glsl::kUnknownVisibility);
   EXPECT_GT(marked, 100);
 }

@@ -1,0 +1,17 @@
+// Where a user's own bias goes: `gnomon compare SCENE --bias-file my.glsl` puts that file in the place of this one.
+// samples/my_bias.glsl is a worked example, docs/add_a_bias.md tells what a file may say of itself.
+#ifndef GNOMON_BIAS_USER_GLSL
+#define GNOMON_BIAS_USER_GLSL
+
+#include "shared/bias/constant.glsl"
+#include "shared/lang.glsl"
+
+GNOMON_SHARED_BEGIN
+
+// Whether the texel lights the receiver. What stands here is no bias at all, moved by the knob (metres) as an example of its use.
+GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
+  return litWithOffset(map, receiver, tap, params.userKnob);
+}
+
+GNOMON_SHARED_END
+#endif
