@@ -285,12 +285,12 @@ TEST_F(BiasOnTheGpu, VerdictsEqualTheCpuForEveryMethod) {
   std::vector<BiasQuery> queries;
   for (const MapSample& sample : samplesOf(fitted, gpu::kKernelInputCount, 16)) {
     PlaneCase c = planeCase(fitted.map, sample, std::tan(unit(random) * 1.57f), unit(random) * 6.0f);
-    BiasQuery query{
-        .method = static_cast<int>(queries.size() % (biasMethods().size() + 1)),  // the last is no method
-        .params = defaultBiasParams(fitted.map.sceneScale),
-        .receiver = c.receiver,
-        .z1 = c.tap.z1,
-        .z2 = c.tap.z1 + unit(random) * 0.1f};
+    BiasQuery query{.method = static_cast<int>(queries.size() %
+                                               (biasMethods().size() + 2)),  // and the user's, and no method
+                    .params = defaultBiasParams(fitted.map.sceneScale),
+                    .receiver = c.receiver,
+                    .z1 = c.tap.z1,
+                    .z2 = c.tap.z1 + unit(random) * 0.1f};
     query.params.epsilonAt = static_cast<int>(queries.size() % 3);
     // Near the decision of each method, on either side.
     query.z1 += (unit(random) - 0.5f) * 1e-3f;
