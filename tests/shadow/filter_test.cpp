@@ -24,7 +24,11 @@ TEST(Filter, WeightsAddUpToOne) {
     for (int n = 0; n < 1000; ++n) {
       const glm::vec2 position(unit(random) * 512.0f, unit(random) * 512.0f);
       float sum = 0.0f;
-      for (int i = 0; i < filterTapCount(kind); ++i) sum += filterTap(kind, position, 7u, i).weight;
+      for (int i = 0; i < filterTapCount(kind); ++i) {
+        const float weight = filterTap(kind, position, 7u, i).weight;
+        EXPECT_TRUE(weight >= 0.0f && weight <= 1.0f) << kind << " " << weight;
+        sum += weight;
+      }
       EXPECT_NEAR(sum, 1.0f, 2e-7f) << kind;
     }
   }

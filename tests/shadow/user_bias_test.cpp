@@ -43,6 +43,7 @@ class UserBiasTest : public gpu::GpuTest {
   }
 
   test::TemporaryFolder folder_;
+  std::vector<std::unique_ptr<const UserBias>> kept_;
 };
 
 TEST_F(UserBiasTest, SaysWhatItIs) {
@@ -79,6 +80,29 @@ TEST_F(UserBiasTest, ItIsWhatRuns) {
     params.constantOffset = params.userKnob = offset;
     EXPECT_EQ(visibility(r, load(kConstant)->method, params), visibility(r, findBias("constant"), params))
         << offset;
+  }
+}
+
+// Two files in one pass: each runs its own.
+TEST_F(UserBiasTest, TwoOfThemAreTwo) {
+  const test::Rendered r =
+      test::render(device(), "contact", spotParameterization(), 64, 64, CullMode::Solids);
+  VisibilityPass pass(device(), r.view.width, r.view.height);
+  pass.setUniforms(shadeUniforms(r.view, r.light, {}));
+  const std::string signature = "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap)";
+  for (const char* answer : {"true", "false"}) {
+    kept_.push_back(load(signature + " { return " + answer + "; }"));
+    gpu::Commands commands(device(), "visibility");
+    pass.record(commands, r.buffers, *r.gbuffer, *r.image, kept_.back()->method, false);
+    commands.submitAndWait();
+    const auto seen = gpu::downloadAs<float>(device(), pass.visibility());
+    size_t lit = 0;
+    for (size_t i = 0; i < seen.size(); ++i)
+      lit += r.receivers.states[i] == PixelState::Scored && seen[i] == 1.0f ? 1 : 0;
+    if (answer == std::string("true"))
+      EXPECT_EQ(lit, r.receivers.scored);
+    else
+      EXPECT_LT(lit, r.receivers.scored / 2);  // what texels without a surface light
   }
 }
 
