@@ -6,6 +6,7 @@
 // spot and directional are here, cube and paraboloid in omni/; lab/maps.h has the list of all.
 
 #include "scene/scene_buffers.h"
+#include "shadow/layer_shaders.h"
 #include "shadow/map_options.h"
 #include "truth/receivers.h"
 
@@ -25,6 +26,7 @@ struct FittedMap {
   // Clip distances of layer 0 along the light's axis, metres; for reports.
   float zNear = 0.0f;
   float zFar = 0.0f;
+  LayerShaders shaders;
 };
 
 // What a map may be fitted to.
