@@ -189,20 +189,20 @@ ImageF depthInMetres(const Session& session, const DrawnMap& map) {
   const std::vector<float> depth = gpu::downloadAs<float>(session.device(), map.image->depth());
   const int side = map.fitted.map.side;
   ImageF metres(side * map.fitted.map.layerCount, side, 1);
+  // Distances are told from the light; a directional light is nowhere, and they are told from its frame's
+  // plane. Only a directional light's matrix gives the origin of L a place.
+  const bool positional =
+      map.fitted.map.kind != glsl::kMapPlanar || map.fitted.map.mapLayers[0].clipFromLight[3][3] == 0.0f;
   for (int layer = 0; layer < map.fitted.map.layerCount; ++layer) {
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
         const float d = depth[(static_cast<size_t>(layer) * side + y) * side + x];
         const glsl::Ray ray =
             glsl::mapTexelRay(map.fitted.map, layer, glsl::mapTexelCenter(map.fitted.map, {x, y}));
-        // The texel ray's origin is at the near end; distances are told from the light (its plane, when
-        // directional).
-        const float nearEnd = map.fitted.map.mapLayers[layer].clipFromLight[2][3] != 0.0f
-                                  ? glm::length(ray.origin)
-                                  : map.fitted.zNear;
-        *metres.at(layer * side + x, y) = d >= 1.0f
-                                              ? std::numeric_limits<float>::infinity()
-                                              : nearEnd + glsl::mapDistance(map.fitted.map, layer, ray, d);
+        const glm::vec3 posL = ray.origin + ray.dir * glsl::mapDistance(map.fitted.map, layer, ray, d);
+        *metres.at(layer * side + x, y) = d >= 1.0f    ? std::numeric_limits<float>::infinity()
+                                          : positional ? glm::length(posL)
+                                                       : -posL.z;
       }
     }
   }

@@ -1,6 +1,7 @@
 #include "lab/maps.h"
 
 #include "base/error.h"
+#include "omni/cube_map.h"
 #include "shadow/planar_map.h"
 
 #include <algorithm>
@@ -11,7 +12,12 @@
 namespace gnomon {
 
 const std::vector<const Parameterization*>& parameterizations() {
-  return planarParameterizations();
+  static const std::vector<const Parameterization*> all = [] {
+    std::vector<const Parameterization*> maps = planarParameterizations();
+    maps.push_back(&cubeParameterization());
+    return maps;
+  }();
+  return all;
 }
 
 std::vector<const Parameterization*> parseMaps(const std::string& list) {
