@@ -22,6 +22,7 @@ const int kBindMap = 16;  // MapUniforms; declared here, in every shader that in
 const int kMapPlanar = 0;      // spot and directional: one clipFromLight matrix a layer
 const int kMapCube = 1;        // six faces, hyperbolic depth: z/w of the face's own projection
 const int kMapCubeRadial = 2;  // six faces, depth linear in the distance from the light
+const int kMapParaboloid = 3;  // two hemispheres, depth linear in the distance from the light
 const int kMaxMapLayers = 6;
 
 struct MapLayer {
@@ -62,6 +63,7 @@ struct MapPoint {
 GNOMON_SHARED_END
 
 #include "shared/cube_map.glsl"
+#include "shared/paraboloid_map.glsl"
 #include "shared/planar_map.glsl"
 
 GNOMON_SHARED_BEGIN
@@ -74,6 +76,8 @@ GNOMON_FN MapPoint mapProject(ShadowMap map, vec3 posL) {
     case kMapCube:
     case kMapCubeRadial:
       return cubeProject(posL);
+    case kMapParaboloid:
+      return paraboloidProject(posL);
   }
   MapPoint none;
   none.layer = 0;
@@ -90,6 +94,8 @@ GNOMON_FN Ray mapTexelRay(ShadowMap map, int layer, vec2 uv) {
     case kMapCube:
     case kMapCubeRadial:
       return cubeTexelRay(map, layer, uv);
+    case kMapParaboloid:
+      return paraboloidTexelRay(map, layer, uv);
   }
   Ray none;
   none.origin = vec3(0.0f, 0.0f, 0.0f);
@@ -105,6 +111,8 @@ GNOMON_FN float mapDepth(ShadowMap map, int layer, vec3 posL) {
     case kMapCube:
     case kMapCubeRadial:
       return cubeDepth(map, layer, posL);
+    case kMapParaboloid:
+      return paraboloidDepth(map, posL);
   }
   return 0.0f;
 }
@@ -117,6 +125,8 @@ GNOMON_FN float mapDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) 
     case kMapCube:
     case kMapCubeRadial:
       return cubeDepthSlope(map, layer, posL, rayDir);
+    case kMapParaboloid:
+      return paraboloidDepthSlope(map);
   }
   return 0.0f;
 }
@@ -129,6 +139,8 @@ GNOMON_FN float mapDistance(ShadowMap map, int layer, Ray ray, float depth) {
     case kMapCube:
     case kMapCubeRadial:
       return cubeDistance(map, layer, ray, depth);
+    case kMapParaboloid:
+      return paraboloidDistance(map, depth);
   }
   return 0.0f;
 }
@@ -145,6 +157,7 @@ GNOMON_FN vec2 mapTexelCenter(ShadowMap map, ivec2 texel) {
 
 // Whether a layer draws this texel: it lies on its square, and where the layer is less than a square, on that.
 GNOMON_FN bool mapHoldsTexel(ShadowMap map, int layer, ivec2 texel) {
+  if (map.kind == kMapParaboloid && !paraboloidHoldsTexel(map, texel)) return false;
   return layer < map.layerCount && texel.x >= 0 && texel.y >= 0 && texel.x < map.side && texel.y < map.side;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "omni/cube_map.h"
+#include "omni/paraboloid_map.h"
 #include "shadow/planar_map.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@ const std::vector<const Parameterization*>& parameterizations() {
   static const std::vector<const Parameterization*> all = [] {
     std::vector<const Parameterization*> maps = planarParameterizations();
     maps.push_back(&cubeParameterization());
+    maps.push_back(&paraboloidParameterization());
     return maps;
   }();
   return all;

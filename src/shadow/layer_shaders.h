@@ -5,7 +5,8 @@
 // Every shader reads the scene's bindings, the map's uniforms at kBindMap and, as push constants, as much of
 // the front of LayerPush as it needs. Fragment shaders take `layout(constant_id = 0) const int kMasked`: 1
 // leaves the holes of alpha masks open; constant_id 1 is the pass: 0 the first layer, 1 the second by
-// blending, 2 by peeling.
+// blending, 2 by peeling;
+// constant_id 2 is the map's kind (kMap*).
 
 #include <cstdint>
 

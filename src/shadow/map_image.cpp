@@ -132,7 +132,8 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
                          .vertex = {shaders.vertex, {}},
                          .fragment = {fragment, {}},
                          .specializations = {{.id = 0, .value = key.masked ? 1 : 0},
-                                             {.id = 1, .value = static_cast<int32_t>(key.pass)}},
+                                             {.id = 1, .value = static_cast<int32_t>(key.pass)},
+                                             {.id = 2, .value = key.mapKind}},
                          .depthFormat = VK_FORMAT_D32_SFLOAT,
                          .depthCompare = VK_COMPARE_OP_LESS};
   if (second) desc.colorFormats = {VK_FORMAT_R32_SFLOAT};
@@ -158,7 +159,7 @@ void MapRenderer::recordLayer(gpu::Commands& commands, const SceneBuffers& scene
   const bool mirrors = (shaders.mirroredLayers >> layer & 1u) != 0;
   for (const bool masked : {false, true}) {
     if (masked && (scene.draws.empty() || !scene.draws.back().masked)) continue;
-    const gpu::GraphicsProgram& drawn = program({shaders, pass, masked});
+    const gpu::GraphicsProgram& drawn = program({shaders, pass, masked, map.kind()});
     // Sheets, solids, and solids that are mirrored in the world.
     for (const int group : {0, 1, 2}) {
       const auto wanted = [&](const Draw& d) {

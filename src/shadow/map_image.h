@@ -66,6 +66,7 @@ class MapRenderer {
     LayerShaders shaders;
     Pass pass;
     bool masked;
+    int mapKind;
     bool operator==(const Key&) const = default;
   };
   struct Entry {
