@@ -21,6 +21,7 @@
 #define GNOMON_INOUT(T) T&
 #define GNOMON_CPP_ONLY(text) text
 #define GNOMON_GLSL_ONLY(text)
+#define GNOMON_PRECISE
 // An array that is a member of a struct in C++ and stands alone in a buffer in GLSL: a struct that is passed by value
 // and indexed by a variable would be copied to memory by every shader invocation (measured: a visibility pass 3 to 5 times slower).
 #define GNOMON_MEMBER_ARRAY(object, array) (object).array
@@ -40,6 +41,8 @@ GNOMON_SHARED_END
 #define GNOMON_INOUT(T) inout T
 #define GNOMON_CPP_ONLY(text)
 #define GNOMON_GLSL_ONLY(text) text
+// Before a variable whose sums and products must be rounded one by one; C++ is built so that all are.
+#define GNOMON_PRECISE precise
 #define GNOMON_MEMBER_ARRAY(object, array) array
 #define atan2(y, x) atan(y, x)
 

@@ -7,7 +7,7 @@
 //              |  . . .           depth is 0 at its near end and 1 at its far end
 //              v  . . .           and grows strictly in between
 //
-// A parameterization is a case in each of the five switches, and a file of its own beside this one.
+// A parameterization is a case in each of the switches, and a file of its own beside this one.
 #ifndef GNOMON_MAP_GLSL
 #define GNOMON_MAP_GLSL
 
@@ -19,7 +19,10 @@ GNOMON_SHARED_BEGIN
 
 const int kBindMap = 16;  // MapUniforms; declared here, in every shader that includes this file
 
-const int kMapPlanar = 0;  // spot and directional: one clipFromLight matrix a layer
+const int kMapPlanar = 0;      // spot and directional: one clipFromLight matrix a layer
+const int kMapCube = 1;        // six faces, hyperbolic depth: z/w of the face's own projection
+const int kMapCubeRadial = 2;  // six faces, depth linear in the distance from the light
+const int kMapParaboloid = 3;  // two hemispheres, depth linear in the distance from the light
 const int kMaxMapLayers = 6;
 
 struct MapLayer {
@@ -32,6 +35,10 @@ struct ShadowMap {
   int layerCount;
   int side;          // texels
   float sceneScale;  // metres: the diagonal of the scene's bounds
+  float zNear;       // metres, where depth is 0 and 1: along a cube face's axis, or from the light where depth is radial;
+  float zFar;        // a planar map has them in its matrices
+  vec2 clipDepth;    // cube faces: z_clip = m * clipDepth.x + clipDepth.y; in the buffer, because a shader's optimizer that sees what
+                     // it is made of factors the sum, and then the bits are no longer the rasterizer's
   GNOMON_CPP_ONLY(MapLayer mapLayers[kMaxMapLayers];)
 };
 
@@ -55,6 +62,8 @@ struct MapPoint {
 
 GNOMON_SHARED_END
 
+#include "shared/cube_map.glsl"
+#include "shared/paraboloid_map.glsl"
 #include "shared/planar_map.glsl"
 
 GNOMON_SHARED_BEGIN
@@ -64,6 +73,11 @@ GNOMON_FN MapPoint mapProject(ShadowMap map, vec3 posL) {
   switch (map.kind) {
     case kMapPlanar:
       return planarProject(map, posL);
+    case kMapCube:
+    case kMapCubeRadial:
+      return cubeProject(posL);
+    case kMapParaboloid:
+      return paraboloidProject(posL);
   }
   MapPoint none;
   none.layer = 0;
@@ -77,6 +91,11 @@ GNOMON_FN Ray mapTexelRay(ShadowMap map, int layer, vec2 uv) {
   switch (map.kind) {
     case kMapPlanar:
       return planarTexelRay(map, layer, uv);
+    case kMapCube:
+    case kMapCubeRadial:
+      return cubeTexelRay(map, layer, uv);
+    case kMapParaboloid:
+      return paraboloidTexelRay(map, layer, uv);
   }
   Ray none;
   none.origin = vec3(0.0f, 0.0f, 0.0f);
@@ -89,6 +108,11 @@ GNOMON_FN float mapDepth(ShadowMap map, int layer, vec3 posL) {
   switch (map.kind) {
     case kMapPlanar:
       return planarDepth(map, layer, posL);
+    case kMapCube:
+    case kMapCubeRadial:
+      return cubeDepth(map, layer, posL);
+    case kMapParaboloid:
+      return paraboloidDepth(map, posL);
   }
   return 0.0f;
 }
@@ -98,6 +122,11 @@ GNOMON_FN float mapDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) 
   switch (map.kind) {
     case kMapPlanar:
       return planarDepthSlope(map, layer, posL, rayDir);
+    case kMapCube:
+    case kMapCubeRadial:
+      return cubeDepthSlope(map, layer, posL, rayDir);
+    case kMapParaboloid:
+      return paraboloidDepthSlope(map);
   }
   return 0.0f;
 }
@@ -107,6 +136,11 @@ GNOMON_FN float mapDistance(ShadowMap map, int layer, Ray ray, float depth) {
   switch (map.kind) {
     case kMapPlanar:
       return planarDistance(map, layer, ray, depth);
+    case kMapCube:
+    case kMapCubeRadial:
+      return cubeDistance(map, layer, ray, depth);
+    case kMapParaboloid:
+      return paraboloidDistance(map, depth);
   }
   return 0.0f;
 }
@@ -123,6 +157,7 @@ GNOMON_FN vec2 mapTexelCenter(ShadowMap map, ivec2 texel) {
 
 // Whether a layer draws this texel: it lies on its square, and where the layer is less than a square, on that.
 GNOMON_FN bool mapHoldsTexel(ShadowMap map, int layer, ivec2 texel) {
+  if (map.kind == kMapParaboloid && !paraboloidHoldsTexel(map, texel)) return false;
   return layer < map.layerCount && texel.x >= 0 && texel.y >= 0 && texel.x < map.side && texel.y < map.side;
 }
 
@@ -154,8 +189,8 @@ GNOMON_FN MapTexel mapTexelAcross(ShadowMap map, int layer, ivec2 texel, vec3 po
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::ShadowMap) == 16 + 6 * 128);
-static_assert(offsetof(gnomon::glsl::ShadowMap, mapLayers) == 16);
-static_assert(sizeof(gnomon::glsl::MapUniforms) == 48 + 784);
+static_assert(sizeof(gnomon::glsl::ShadowMap) == 32 + 6 * 128);
+static_assert(offsetof(gnomon::glsl::ShadowMap, mapLayers) == 32);
+static_assert(sizeof(gnomon::glsl::MapUniforms) == 48 + 800);
 #endif
 #endif

@@ -151,6 +151,17 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
   verb.add_option("--epsilon-at", flags.epsilonAt,
                   "where adaptive takes its epsilon: fragment, occluder or stored")
       ->capture_default_str();
+  verb.add_option("--cube-depth", flags.cubeDepth,
+                  "hyperbolic: the rasterizer's depth of each face; radial: linear in the distance")
+      ->capture_default_str();
+  verb.add_option(
+          "--paraboloid-axis", flags.paraboloidAxis,
+          "x,y,z: where the first hemisphere looks; auto: the seam is turned away from what the camera sees")
+      ->capture_default_str();
+  verb.add_option("--paraboloid-raster", flags.paraboloidRaster,
+                  "exact: each texel's ray decides; vertex: edges are drawn straight, which they are not; "
+                  "tessellated: the same with triangles split")
+      ->capture_default_str();
   for (const BiasMethod& method : biasMethods())
     for (const BiasKnob& knob : method.knobs)
       verb.add_option_function<float>(
@@ -166,6 +177,14 @@ CompareOptions compareOptions(const MethodFlags& flags) {
   options.filters = parseFilters(flags.filters);
   options.cull = parseCullMode(flags.cull);
   options.epsilonAt = parseEpsilonAt(flags.epsilonAt);
+  options.mapOptions.cubeDepth = parseCubeDepth(flags.cubeDepth);
+  options.mapOptions.paraboloidRaster = parseParaboloidRaster(flags.paraboloidRaster);
+  if (flags.paraboloidAxis != "auto") {
+    const glm::vec3 axis = parseVec3("--paraboloid-axis", flags.paraboloidAxis);
+    if (glm::length(axis) == 0.0f)
+      throw UsageError("--paraboloid-axis 0,0,0 has no direction; write x,y,z or auto");
+    options.mapOptions.paraboloidAxisW = glm::normalize(glm::dvec3(axis));
+  }
   options.mapSide = flags.mapSize;
   options.mapTexels = flags.mapTexels;
   if (flags.mapTexels < 0)

@@ -32,9 +32,13 @@ struct MethodFlags {
   long mapTexels = 0;
   std::string cull = "solids";
   std::string epsilonAt = "occluder";
+  std::string cubeDepth = "hyperbolic";
+  std::string paraboloidAxis = "auto";
+  std::string paraboloidRaster = "exact";
   std::map<std::string, float> knobs;  // flag -> value
 };
-// --maps, --biases, --bias-file, --filters, --map-size, --map-texels, --cull, --epsilon-at and a flag a knob.
+// --maps, --biases, --bias-file, --filters, --map-size, --map-texels, --cull, --epsilon-at, those of cube and
+// paraboloid maps, and a flag a knob.
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases);
 // Throws UsageError.
 CompareOptions compareOptions(const MethodFlags& flags);

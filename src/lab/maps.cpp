@@ -1,6 +1,8 @@
 #include "lab/maps.h"
 
 #include "base/error.h"
+#include "omni/cube_map.h"
+#include "omni/paraboloid_map.h"
 #include "shadow/planar_map.h"
 
 #include <algorithm>
@@ -11,7 +13,13 @@
 namespace gnomon {
 
 const std::vector<const Parameterization*>& parameterizations() {
-  return planarParameterizations();
+  static const std::vector<const Parameterization*> all = [] {
+    std::vector<const Parameterization*> maps = planarParameterizations();
+    maps.push_back(&cubeParameterization());
+    maps.push_back(&paraboloidParameterization());
+    return maps;
+  }();
+  return all;
 }
 
 std::vector<const Parameterization*> parseMaps(const std::string& list) {

@@ -2,40 +2,14 @@
 
 #include "base/error.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace gnomon {
 
 namespace {
-
-// As peel_second_depth.frag.glsl declares it.
-struct PeelPush {
-  int32_t layer;
-  float
-      tolerance;  // of depth: the rasterizer gives one triangle the same depth every time, so none is needed
-};
-
-gpu::GraphicsDesc firstLayerProgram(bool masked) {
-  return {.name = masked ? "draw depth, masked" : "draw depth",
-          .vertex = {"shadow/project_to_layer.vert.glsl", {}},
-          .fragment = {masked ? "shadow/draw_depth_masked.frag.glsl" : "", {}},
-          .depthFormat = VK_FORMAT_D32_SFLOAT,
-          .depthCompare = VK_COMPARE_OP_LESS};
-}
-
-gpu::GraphicsDesc secondLayerProgram(SecondLayer method, bool masked) {
-  const bool blend = method == SecondLayer::Blend;
-  return {
-      .name = blend ? "draw second depth" : "peel second depth",
-      .vertex = {"shadow/project_to_layer.vert.glsl", {}},
-      .fragment = {blend ? "shadow/draw_second_depth.frag.glsl" : "shadow/peel_second_depth.frag.glsl", {}},
-      .specializations = {{.id = 0, .value = masked ? 1 : 0}},
-      .colorFormats = {VK_FORMAT_R32_SFLOAT},
-      .depthFormat = VK_FORMAT_D32_SFLOAT,
-      .depthCompare = blend ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS,
-      .depthWrite = !blend,
-      .minBlend = blend};
-}
 
 gpu::ImageDesc layersDesc(const char* name, VkFormat format, VkImageUsageFlags usage, uint32_t side,
                           uint32_t layerCount) {
@@ -55,6 +29,66 @@ bool holdsLight(const Draw& draw, const LightModel& light) {
          glm::all(glm::lessThanEqual(position, draw.boundsW.upper));
 }
 
+// Whether any of the box may fall on a layer: it does not where all its corners lie outside one side of the
+// clip volume. A corner is projected to within a few ulps; a thousandth is more, and what it lets through is
+// clipped anyway.
+bool mayFallOn(const FittedMap& fitted, int layer, const Bounds& boundsW) {
+  bool outside[4] = {true, true, true, true};
+  for (int i = 0; i < 8; ++i) {
+    const glm::vec3 cornerW(i & 1 ? boundsW.upper.x : boundsW.lower.x,
+                            i & 2 ? boundsW.upper.y : boundsW.lower.y,
+                            i & 4 ? boundsW.upper.z : boundsW.lower.z);
+    const glm::vec4 clip = glsl::transform(fitted.map.mapLayers[layer].clipFromLight,
+                                           glm::vec4(glsl::lightFromWorld(fitted.frame, cornerW), 1.0f));
+    const float slack = 1e-3f * (std::abs(clip.x) + std::abs(clip.y) + std::abs(clip.w));
+    outside[0] = outside[0] && clip.x > clip.w + slack;
+    outside[1] = outside[1] && -clip.x > clip.w + slack;
+    outside[2] = outside[2] && clip.y > clip.w + slack;
+    outside[3] = outside[3] && -clip.y > clip.w + slack;
+  }
+  return !outside[0] && !outside[1] && !outside[2] && !outside[3];
+}
+
+// What a program reads of the scene and the map.
+std::vector<gpu::Binding> bindingsOf(const gpu::GraphicsProgram& program, const SceneBuffers& scene,
+                                     const MapImage& map) {
+  std::vector<gpu::Binding> bindings;
+  for (const gpu::ProgramInterface::Binding& wanted : program.interface().bindings) {
+    switch (wanted.index) {
+      case glsl::kBindPositions:
+        bindings.emplace_back(wanted.index, scene.positions);
+        break;
+      case glsl::kBindTriangles:
+        bindings.emplace_back(wanted.index, scene.triangles);
+        break;
+      case glsl::kBindInstances:
+        bindings.emplace_back(wanted.index, scene.instances);
+        break;
+      case glsl::kBindUvs:
+        bindings.emplace_back(wanted.index, scene.uvs);
+        break;
+      case glsl::kBindMaterials:
+        bindings.emplace_back(wanted.index, scene.materials);
+        break;
+      case glsl::kBindTextures:
+        bindings.emplace_back(wanted.index, scene.textures);
+        break;
+      case glsl::kBindTexels:
+        bindings.emplace_back(wanted.index, scene.texels);
+        break;
+      case glsl::kBindMap:
+        bindings.emplace_back(wanted.index, map.uniforms());
+        break;
+      case glsl::kBindMapDepth:
+        bindings.emplace_back(wanted.index, map.depth());
+        break;
+      default:
+        break;  // bind() says what is missing
+    }
+  }
+  return bindings;
+}
+
 }  // namespace
 
 CullMode parseCullMode(const std::string& name) {
@@ -68,15 +102,14 @@ const char* cullModeName(CullMode mode) {
 }
 
 MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, MapContent content)
-    : uniforms_(gpu::createBufferWith(
+    : fitted_(fitted),
+      uniforms_(gpu::createBufferWith(
           device, "map uniforms",
           std::vector<glsl::MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)),
-      content_(content),
-      layerCount_(fitted.map.layerCount),
-      kind_(fitted.map.kind) {
+      content_(content) {
   const auto side = static_cast<uint32_t>(fitted.map.side);
-  const auto layers = static_cast<uint32_t>(layerCount_);
+  const auto layers = static_cast<uint32_t>(fitted.map.layerCount);
   depth_ = gpu::Image(device, layersDesc("shadow map depth", VK_FORMAT_D32_SFLOAT,
                                          VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, side, layers));
   if (content == MapContent::TwoLayers)
@@ -84,66 +117,72 @@ MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, MapConten
                                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, side, layers));
 }
 
-MapRenderer::MapRenderer(const gpu::Device& device)
-    : device_(device),
-      first_{{device, firstLayerProgram(false)}, {device, firstLayerProgram(true)}},
-      blend_{{device, secondLayerProgram(SecondLayer::Blend, false)},
-             {device, secondLayerProgram(SecondLayer::Blend, true)}},
-      peel_{{device, secondLayerProgram(SecondLayer::Peel, false)},
-            {device, secondLayerProgram(SecondLayer::Peel, true)}} {}
+MapRenderer::MapRenderer(const gpu::Device& device) : device_(device) {}
+
+const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
+  for (const auto& entry : programs_)
+    if (entry->key == key) return entry->program;
+  const LayerShaders& shaders = key.shaders;
+  const bool second = key.pass != Pass::First;
+  const char* fragment = key.pass == Pass::Blend  ? shaders.secondDepth
+                         : key.pass == Pass::Peel ? shaders.peel
+                         : key.masked             ? shaders.depthMasked
+                                                  : shaders.depth;
+  gpu::GraphicsDesc desc{.name = second ? "draw second depth" : "draw depth",
+                         .vertex = {shaders.vertex, {}},
+                         .fragment = {fragment, {}},
+                         .specializations = {{.id = 0, .value = key.masked ? 1 : 0},
+                                             {.id = 1, .value = static_cast<int32_t>(key.pass)},
+                                             {.id = 2, .value = key.mapKind}},
+                         .depthFormat = VK_FORMAT_D32_SFLOAT,
+                         .depthCompare = VK_COMPARE_OP_LESS};
+  if (second) desc.colorFormats = {VK_FORMAT_R32_SFLOAT};
+  if (key.pass == Pass::Blend) {
+    desc.depthCompare = VK_COMPARE_OP_GREATER;
+    desc.depthWrite = false;
+    desc.minBlend = true;
+  }
+  programs_.push_back(std::make_unique<Entry>(Entry{key, gpu::GraphicsProgram(device_, desc)}));
+  return programs_.back()->program;
+}
 
 void MapRenderer::recordLayer(gpu::Commands& commands, const SceneBuffers& scene, const MapImage& map,
-                              const LightModel& light, CullMode cull, const Pair& programs, int layer,
-                              bool readsFirstLayer) const {
+                              const LightModel& light, CullMode cull, Pass pass, int layer) const {
+  const LayerShaders& shaders = map.fitted_.shaders;
   const bool backFaces = map.content() == MapContent::BackFaces;
   const auto culled = [&](const Draw& draw) {
     return (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
   };
-  const PeelPush push{.layer = layer, .tolerance = 0.0f};
+  const auto inReach = [&](const Draw& draw) {
+    return !shaders.projective || mayFallOn(map.fitted_, layer, draw.boundsW);
+  };
+  const bool mirrors = (shaders.mirroredLayers >> layer & 1u) != 0;
   for (const bool masked : {false, true}) {
     if (masked && (scene.draws.empty() || !scene.draws.back().masked)) continue;
-    const gpu::GraphicsProgram& program = masked ? programs.masked : programs.opaque;
-    std::vector<gpu::Binding> bindings;
-    for (const gpu::ProgramInterface::Binding& wanted : program.interface().bindings) {
-      switch (wanted.index) {
-        case glsl::kBindPositions:
-          bindings.emplace_back(wanted.index, scene.positions);
-          break;
-        case glsl::kBindInstances:
-          bindings.emplace_back(wanted.index, scene.instances);
-          break;
-        case glsl::kBindUvs:
-          bindings.emplace_back(wanted.index, scene.uvs);
-          break;
-        case glsl::kBindMaterials:
-          bindings.emplace_back(wanted.index, scene.materials);
-          break;
-        case glsl::kBindTextures:
-          bindings.emplace_back(wanted.index, scene.textures);
-          break;
-        case glsl::kBindTexels:
-          bindings.emplace_back(wanted.index, scene.texels);
-          break;
-        case glsl::kBindMap:
-          bindings.emplace_back(wanted.index, map.uniforms());
-          break;
-        case glsl::kBindMapDepth:
-          bindings.emplace_back(wanted.index, map.depth());
-          break;
-        default:
-          break;  // bind() says what is missing
+    const gpu::GraphicsProgram& drawn = program({shaders, pass, masked, map.kind()});
+    // Sheets, solids, and solids that are mirrored in the world.
+    for (const int group : {0, 1, 2}) {
+      const auto wanted = [&](const Draw& d) {
+        return d.masked == masked && (culled(d) ? (d.mirrored ? 2 : 1) : 0) == group;
+      };
+      if (std::ranges::none_of(scene.draws, wanted)) continue;
+      LayerPush push{.layer = layer};
+      if (group > 0) push.facing = (group == 2) == backFaces ? 1 : -1;
+      commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
+                    bindingsOf(drawn, scene, map));
+      if (shaders.drawnAs == DrawnAs::Bounds) {
+        commands.setCulling(VK_CULL_MODE_NONE, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        for (const Draw& d : scene.draws)
+          if (wanted(d)) commands.draw(2 * d.indexCount, 1, 2 * d.firstIndex, d.instance);
+        continue;
       }
-    }
-    commands.bind(program, gpu::asPush(push).first(readsFirstLayer ? sizeof(PeelPush) : sizeof(int32_t)),
-                  bindings);
-    commands.bindIndexBuffer(scene.triangles);
-    commands.setCulling(VK_CULL_MODE_NONE, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-    recordDraws(commands, scene, [&](const Draw& d) { return d.masked == masked && !culled(d); });
-    for (const bool mirrored : {false, true}) {
-      commands.setCulling(backFaces ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT,
-                          mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-      recordDraws(commands, scene,
-                  [&](const Draw& d) { return d.masked == masked && d.mirrored == mirrored && culled(d); });
+      const bool clockwise = (group == 2) != mirrors;
+      commands.setCulling(group == 0  ? VK_CULL_MODE_NONE
+                          : backFaces ? VK_CULL_MODE_FRONT_BIT
+                                      : VK_CULL_MODE_BACK_BIT,
+                          clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+      commands.bindIndexBuffer(scene.triangles);
+      recordDraws(commands, scene, [&](const Draw& d) { return wanted(d) && inReach(d); });
     }
   }
 }
@@ -158,7 +197,7 @@ void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, Map
   for (int layer = 0; layer < map.layerCount(); ++layer) {
     const auto target = static_cast<uint32_t>(layer);
     commands.beginRendering({.depth = &map.depth(), .clearDepth = 1.0f, .layer = target});
-    recordLayer(commands, scene, map, light, cull, first_, layer, false);
+    recordLayer(commands, scene, map, light, cull, Pass::First, layer);
     commands.endRendering();
     if (map.content() != MapContent::TwoLayers) continue;
     commands.barrier("the first layer's depth is written -> the second layer tests against it");
@@ -168,7 +207,7 @@ void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, Map
         .layer = target};
     if (peels) second.clearDepth = 1.0f;
     commands.beginRendering(second);
-    recordLayer(commands, scene, map, light, cull, peels ? peel_ : blend_, layer, peels);
+    recordLayer(commands, scene, map, light, cull, peels ? Pass::Peel : Pass::Blend, layer);
     commands.endRendering();
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A planar shadow map on the GPU: an array of D32 layers, drawn once a layer with depth only, and for
-// two-layer biases a second array with the nearest depth behind the first.
+// A shadow map on the GPU: an array of D32 layers, drawn once a layer by the shaders that the
+// parameterization gives, and for two-layer biases a second array with the nearest depth behind the first.
 
 #include "shadow/bias.h"
 #include "shadow/parameterization.h"
@@ -38,18 +38,17 @@ class MapImage {
   const gpu::Image& secondDepth() const { return second_; }  // R32F; only of TwoLayers
   const gpu::Buffer& uniforms() const { return uniforms_; }  // glsl::MapUniforms
   MapContent content() const { return content_; }
-  int layerCount() const { return layerCount_; }
-  int kind() const { return kind_; }  // glsl::kMap*
+  int layerCount() const { return fitted_.map.layerCount; }
+  int kind() const { return fitted_.map.kind; }  // glsl::kMap*
 
  private:
   friend class MapRenderer;
+  FittedMap fitted_;
   gpu::Image depth_;
   gpu::Image second_;
   gpu::Image peelDepth_;  // made at the first peel
   gpu::Buffer uniforms_;
   MapContent content_ = MapContent::OneLayer;
-  int layerCount_ = 0;
-  int kind_ = 0;
 };
 
 class MapRenderer {
@@ -62,15 +61,24 @@ class MapRenderer {
               CullMode cull, SecondLayer method = SecondLayer::Blend) const;
 
  private:
-  struct Pair {
-    gpu::GraphicsProgram opaque, masked;
+  enum class Pass { First, Blend, Peel };  // kPass
+  struct Key {
+    LayerShaders shaders;
+    Pass pass;
+    bool masked;
+    int mapKind;
+    bool operator==(const Key&) const = default;
   };
+  struct Entry {
+    Key key;
+    gpu::GraphicsProgram program;
+  };
+  const gpu::GraphicsProgram& program(const Key& key) const;
   void recordLayer(gpu::Commands& commands, const SceneBuffers& scene, const MapImage& map,
-                   const LightModel& light, CullMode cull, const Pair& programs, int layer,
-                   bool readsFirstLayer) const;
+                   const LightModel& light, CullMode cull, Pass pass, int layer) const;
 
   const gpu::Device& device_;
-  Pair first_, blend_, peel_;
+  mutable std::vector<std::unique_ptr<Entry>> programs_;  // compiled at first use
 };
 
 }  // namespace gnomon

@@ -6,6 +6,7 @@
 // spot and directional are here, cube and paraboloid in omni/; lab/maps.h has the list of all.
 
 #include "scene/scene_buffers.h"
+#include "shadow/layer_shaders.h"
 #include "shadow/map_options.h"
 #include "truth/receivers.h"
 
@@ -26,6 +27,7 @@ struct FittedMap {
   float zNear = 0.0f;
   float zFar = 0.0f;
   bool positional = true;  // the light is a point, and L's origin is there
+  LayerShaders shaders;
 };
 
 // What a map may be fitted to.

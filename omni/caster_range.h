@@ -1,0 +1,36 @@
+#pragma once
+// How near a point light the scene comes, and how far it reaches: the ends of depth of maps that look
+// everywhere.
+
+#include "scene/scene.h"
+#include "shadow/fit.h"
+
+#include <span>
+
+#include <glm/glm.hpp>
+
+namespace gnomon {
+
+// How far a point is from the light.
+enum class Distance {
+  Radial,  // its Euclidean distance
+  Axial,   // its largest coordinate: metres along the axis of the cube face it falls on
+};
+
+// Metres to the nearest point of any triangle, and not less than `least`; `farthest` where there is none
+// nearer.
+double nearestCaster(const Scene& scene, const glm::dvec3& lightW, Distance distance, double least,
+                     double farthest);
+
+// Metres to the farthest of the points, or to the farthest corner of the scene where there are none.
+double farthestReceiver(const Scene& scene, const glm::dvec3& lightW, Distance distance,
+                        std::span<const glm::dvec3> receiversW);
+
+// Both ends, kept clear of what they were fitted to.
+struct DepthEnds {
+  double zNear = 0.0, zFar = 1.0;  // metres
+};
+DepthEnds fitDepthEnds(const Scene& scene, const glm::dvec3& lightW, Distance distance,
+                       std::span<const glm::dvec3> receiversW);
+
+}  // namespace gnomon

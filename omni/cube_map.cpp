@@ -1,0 +1,90 @@
+#include "omni/cube_map.h"
+
+#include "omni/caster_range.h"
+
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+// z_clip = m * x + y is 0 at m = zNear and m at m = zFar.
+glm::vec2 clipDepth(double zNear, double zFar) {
+  const double scale = zFar / (zFar - zNear);
+  return glm::vec2(glm::dvec2(scale, -zNear * scale));
+}
+
+// Rows s, t, m of cubeFaceFromLight, and depth.
+glm::mat4 clipFromLight(int layer, const glm::vec2& depth) {
+  glm::mat4 m(0.0f);
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::vec3 unit(0.0f);
+    unit[axis] = 1.0f;
+    const glm::vec3 stm = glsl::cubeFaceFromLight(layer, unit);
+    m[axis] = {stm.x, stm.y, stm.z * depth.x, stm.z};
+  }
+  m[3] = {0.0f, 0.0f, depth.y, 0.0f};
+  return m;
+}
+
+class CubeParameterization final : public Parameterization {
+ public:
+  const char* name() const override { return "cube"; }
+  const char* sentence() const override { return "six layers around a point light"; }
+  int layerCount(const MapOptions&) const override { return 6; }
+
+  Takes takes(LightType type) const override {
+    return type == LightType::Directional ? Takes::No : Takes::Yes;
+  }
+
+  LightModel lightModel(const Light& light, const glm::dvec3&) const override {
+    return {.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};
+  }
+
+  FittedMap fit(const FitInput& input) const override {
+    const CubeDepth depth = input.options.cubeDepth;
+    const DepthEnds ends =
+        fitDepthEnds(input.scene, input.light.positionW,
+                     depth == CubeDepth::Radial ? Distance::Radial : Distance::Axial, input.receiversW);
+    return makeCubeMap(input.light.positionW, depth, ends.zNear, ends.zFar, input.side,
+                       computeBounds(input.scene).diagonal());
+  }
+};
+
+}  // namespace
+
+const Parameterization& cubeParameterization() {
+  static const CubeParameterization cube;
+  return cube;
+}
+
+FittedMap makeCubeMap(const glm::dvec3& lightW, CubeDepth depth, double zNear, double zFar, int side,
+                      float sceneScale) {
+  const bool radial = depth == CubeDepth::Radial;
+  FittedMap fitted;
+  fitted.frame = {.originW = glm::vec3(lightW), .rightW = {1, 0, 0}, .upW = {0, 1, 0}, .backW = {0, 0, 1}};
+  fitted.zNear = static_cast<float>(zNear);
+  fitted.zFar = static_cast<float>(zFar);
+  fitted.map = {.kind = radial ? glsl::kMapCubeRadial : glsl::kMapCube,
+                .layerCount = 6,
+                .side = side,
+                .sceneScale = sceneScale,
+                .zNear = fitted.zNear,
+                .zFar = fitted.zFar};
+  // What lies within the near distance is thrown away by the fragment shader; the near plane must only not
+  // cut what lies beyond. A hundredth keeps it clear of rounding.
+  fitted.map.clipDepth = clipDepth(radial ? zNear * (0.99 / std::sqrt(3.0)) : zNear, zFar);
+  for (int layer = 0; layer < 6; ++layer) {
+    const glm::mat4 clip = clipFromLight(layer, fitted.map.clipDepth);
+    fitted.map.mapLayers[layer] = {clip, glm::mat4(glm::inverse(glm::dmat4(clip)))};
+  }
+  fitted.shaders.mirroredLayers = 0x3f;
+  if (radial) {
+    constexpr const char* kFragment = "omni/draw_cube_radial.frag.glsl";
+    fitted.shaders.depth = fitted.shaders.depthMasked = kFragment;
+    fitted.shaders.secondDepth = fitted.shaders.peel = kFragment;
+  }
+  return fitted;
+}
+
+}  // namespace gnomon

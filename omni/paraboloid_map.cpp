@@ -1,0 +1,119 @@
+#include "omni/paraboloid_map.h"
+
+#include "omni/caster_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <tbb/parallel_for.h>
+
+namespace gnomon {
+
+namespace {
+
+constexpr size_t kAxisCandidates = 1024;  // about 4.5 degrees apart
+constexpr size_t kAxisReceivers = 1024;   // of the picture, evenly chosen
+constexpr double kAxisPercentile = 0.05;
+
+// Even over the hemisphere z > 0: equal steps of height, azimuths by the golden ratio.
+glm::dvec3 candidateAxis(size_t i) {
+  const double z = (static_cast<double>(i) + 0.5) / kAxisCandidates;
+  const double azimuth = 2.0 * std::numbers::pi * std::fmod(static_cast<double>(i) * std::numbers::phi, 1.0);
+  const double r = std::sqrt(1.0 - z * z);
+  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
+
+// The sine of the angle to the seam that all but a few receivers exceed.
+double clearance(const glm::dvec3& axis, const std::vector<glm::dvec3>& directions) {
+  std::vector<double> sines(directions.size());
+  for (size_t i = 0; i < directions.size(); ++i) sines[i] = std::abs(glm::dot(axis, directions[i]));
+  const auto low =
+      sines.begin() + static_cast<std::ptrdiff_t>(kAxisPercentile * static_cast<double>(sines.size() - 1));
+  std::nth_element(sines.begin(), low, sines.end());
+  return *low;
+}
+
+LayerShaders shadersFor(ParaboloidRaster raster) {
+  LayerShaders shaders;
+  shaders.projective = false;
+  if (raster == ParaboloidRaster::Exact) {
+    constexpr const char* kFragment = "shadow/draw_bounded_triangle.frag.glsl";
+    shaders.vertex = "omni/bound_in_paraboloid.vert.glsl";
+    shaders.depth = shaders.depthMasked = shaders.secondDepth = shaders.peel = kFragment;
+    shaders.drawnAs = DrawnAs::Bounds;
+  } else {
+    shaders.vertex = "omni/project_to_paraboloid.vert.glsl";
+    shaders.mirroredLayers = 0b10;
+  }
+  return shaders;
+}
+
+class ParaboloidParameterization final : public Parameterization {
+ public:
+  const char* name() const override { return "paraboloid"; }
+  const char* sentence() const override { return "two hemispheres around a point light"; }
+  int layerCount(const MapOptions&) const override { return 2; }
+
+  Takes takes(LightType type) const override {
+    return type == LightType::Directional ? Takes::No : Takes::Yes;
+  }
+
+  LightModel lightModel(const Light& light, const glm::dvec3&) const override {
+    return {.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};
+  }
+
+  FittedMap fit(const FitInput& input) const override {
+    const glm::dvec3& lightW = input.light.positionW;
+    const DepthEnds ends = fitDepthEnds(input.scene, lightW, Distance::Radial, input.receiversW);
+    const glm::dvec3 axisW = input.options.paraboloidAxisW ? glm::normalize(*input.options.paraboloidAxisW)
+                                                           : seamAvoidingAxis(lightW, input.receiversW);
+    return makeParaboloidMap(lightW, axisW, input.options.paraboloidRaster, ends.zNear, ends.zFar, input.side,
+                             computeBounds(input.scene).diagonal());
+  }
+};
+
+}  // namespace
+
+const Parameterization& paraboloidParameterization() {
+  static const ParaboloidParameterization paraboloid;
+  return paraboloid;
+}
+
+FittedMap makeParaboloidMap(const glm::dvec3& lightW, const glm::dvec3& axisW, ParaboloidRaster raster,
+                            double zNear, double zFar, int side, float sceneScale) {
+  const AxisFrame frame = axisFrame(lightW, axisW, true);
+  FittedMap fitted;
+  fitted.frame = {.originW = glm::vec3(lightW),
+                  .rightW = glm::vec3(frame.worldFromLight[0]),
+                  .upW = glm::vec3(frame.worldFromLight[1]),
+                  .backW = glm::vec3(frame.worldFromLight[2])};
+  fitted.zNear = static_cast<float>(zNear);
+  fitted.zFar = static_cast<float>(zFar);
+  fitted.map = {.kind = glsl::kMapParaboloid,
+                .layerCount = 2,
+                .side = side,
+                .sceneScale = sceneScale,
+                .zNear = fitted.zNear,
+                .zFar = fitted.zFar};
+  fitted.shaders = shadersFor(raster);
+  return fitted;
+}
+
+glm::dvec3 seamAvoidingAxis(const glm::dvec3& lightW, std::span<const glm::dvec3> receiversW) {
+  const size_t stride = std::max<size_t>(receiversW.size() / kAxisReceivers, 1);
+  std::vector<glm::dvec3> directions;
+  for (size_t i = 0; i < receiversW.size(); i += stride)
+    if (receiversW[i] != lightW) directions.push_back(glm::normalize(receiversW[i] - lightW));
+  if (directions.empty()) return {0.0, -1.0, 0.0};
+  std::vector<double> clearances(kAxisCandidates);
+  tbb::parallel_for(size_t{0}, kAxisCandidates,
+                    [&](size_t i) { clearances[i] = clearance(candidateAxis(i), directions); });
+  const auto best = std::ranges::max_element(clearances);  // the first of equals
+  const glm::dvec3 axis = candidateAxis(static_cast<size_t>(best - clearances.begin()));
+  double side = 0.0;
+  for (const glm::dvec3& direction : directions) side += glm::dot(axis, direction);
+  return side >= 0.0 ? axis : -axis;
+}
+
+}  // namespace gnomon

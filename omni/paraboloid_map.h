@@ -1,0 +1,26 @@
+#pragma once
+// The dual paraboloid map: two layers, each a hemisphere around a point light, depth linear in the distance.
+// Its mathematics is shaders/shared/paraboloid_map.glsl; the frame's -z is the axis of layer 0, and the seam
+// is the great circle across it.
+//
+// Three ways to rasterize (MapOptions::paraboloidRaster). Straight edges become arcs: `vertex` draws them
+// straight between the corners and is wrong for large triangles, `tessellated` first splits them, and `exact`
+// draws a bound of every triangle and lets each texel's own ray decide.
+
+#include "shadow/parameterization.h"
+
+namespace gnomon {
+
+const Parameterization& paraboloidParameterization();
+
+// A paraboloid map with this axis (unit) and these ends of depth, metres.
+FittedMap makeParaboloidMap(const glm::dvec3& lightW, const glm::dvec3& axisW, ParaboloidRaster raster,
+                            double zNear, double zFar, int side, float sceneScale);
+
+// The axis that turns the seam away from what is seen: of directions spread evenly over a hemisphere, the one
+// for which the receiver at the 5th percentile of the angle to the seam is farthest from it. (The nearest one
+// decides nothing where receivers lie all around the light: some are on any seam.) Unit; layer 0 looks at the
+// greater part. Straight down where there are no receivers.
+glm::dvec3 seamAvoidingAxis(const glm::dvec3& lightW, std::span<const glm::dvec3> receiversW);
+
+}  // namespace gnomon

@@ -1,0 +1,52 @@
+#pragma once
+// How a parameterization's layers are drawn: a value that comes with its fit (FittedMap::shaders), and all
+// that MapRenderer knows of it.
+//
+// Every shader reads the scene's bindings, the map's uniforms at kBindMap and, as push constants, as much of
+// the front of LayerPush as it needs. Fragment shaders take `layout(constant_id = 0) const int kMasked`: 1
+// leaves the holes of alpha masks open; constant_id 1 is the pass: 0 the first layer, 1 the second by
+// blending, 2 by peeling;
+// constant_id 2 is the map's kind (kMap*).
+
+#include <cstdint>
+
+namespace gnomon {
+
+enum class DrawnAs {
+  // Indexed triangles: the vertex shader projects corners, the rasterizer culls by winding.
+  Corners,
+  // Six vertices a triangle (number gl_VertexIndex / 6) without an index buffer: two triangles that enclose
+  // the
+  // projection, or nothing. The shaders cull by LayerPush::facing.
+  Bounds,
+};
+
+struct LayerShaders {
+  const char* vertex = "shadow/project_to_layer.vert.glsl";
+  // Fragment shaders. The first layer's may be empty for opaque meshes: the rasterizer's own depth. The
+  // second layer's write what they find to colour 0, too.
+  const char* depth = "";
+  const char* depthMasked = "shadow/draw_depth_masked.frag.glsl";
+  const char* secondDepth = "shadow/draw_second_depth.frag.glsl";
+  const char* peel = "shadow/peel_second_depth.frag.glsl";
+  DrawnAs drawnAs = DrawnAs::Corners;
+  // One bit a layer that mirrors: there, what winds counter-clockwise seen from the light is clockwise on the
+  // layer.
+  uint32_t mirroredLayers = 0;
+  // The layers are clipFromLight's: what its sides do not let through need not be drawn.
+  bool projective = true;
+
+  bool operator==(const LayerShaders&) const = default;
+};
+
+// Push constants, in this order.
+struct LayerPush {
+  int32_t layer = 0;
+  // Of depth: what lies no further behind the first layer is not the second. The same triangle gets the same
+  // depth in every pass, so none is needed.
+  float tolerance = 0.0f;
+  // Bounds only: 1 draws triangles that wind counter-clockwise seen from the light, -1 the others, 0 both.
+  int32_t facing = 0;
+};
+
+}  // namespace gnomon

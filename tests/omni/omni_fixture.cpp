@@ -1,0 +1,134 @@
+#include "omni_fixture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace gnomon::test {
+
+namespace {
+
+bool isNearPrimitiveEdge(const Tracer& tracer, const FittedMap& fitted, int layer, glm::ivec2 texel,
+                         double reach) {
+  std::optional<Primitive> seen;
+  for (int i = 0; i < 4; ++i) {
+    const glm::dvec2 place = glm::dvec2(texel) + 0.5 + reach * glm::dvec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1);
+    const auto hit = tracer.firstHit(rayThrough(fitted, layer, place));
+    if (!hit || (i > 0 && !(*seen == hit->primitive))) return true;
+    seen = hit->primitive;
+  }
+  return false;
+}
+
+}  // namespace
+
+World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3> lightW) {
+  World world;
+  world.scene = std::move(scene);
+  world.tracer = std::make_unique<Tracer>(world.scene);
+  world.buffers = createSceneBuffers(device, world.scene);
+  const auto positional = std::ranges::find_if(
+      world.scene.lights, [](const Light& light) { return light.type != LightType::Directional; });
+  world.light = {.type = LightType::Point, .positionW = lightW ? *lightW : glm::dvec3(positional->positionW)};
+  return world;
+}
+
+FittedMap fitWhole(const World& world, const Parameterization& map, int side, const MapOptions& options) {
+  const Camera camera =
+      world.scene.cameras.empty() ? lookAt("any", {1, 1, 1}, {0, 0, 0}, 1.0f) : world.scene.cameras.front();
+  return map.fit({.scene = world.scene,
+                  .light = world.light,
+                  .receiversW = {},
+                  .side = side,
+                  .camera = cameraView(camera, 64, 64),
+                  .options = options});
+}
+
+Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
+                  MapContent content, SecondLayer method) {
+  MapImage image(device, fitted, content);
+  const MapRenderer renderer(device);
+  gpu::Commands commands(device, "shadow map");
+  renderer.record(commands, world.buffers, image, world.light, cull, method);
+  commands.submitAndWait();
+  Layers layers{.z1 = gpu::downloadAs<float>(device, image.depth())};
+  if (content == MapContent::TwoLayers) layers.z2 = gpu::downloadAs<float>(device, image.secondDepth());
+  return layers;
+}
+
+RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place) {
+  const glsl::Ray ray =
+      glsl::mapTexelRay(fitted.map, layer, glm::vec2(place / static_cast<double>(fitted.map.side)));
+  const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
+                                  glm::dvec3(fitted.frame.backW));
+  return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
+          .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))};
+}
+
+TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const std::vector<float>& depths,
+                            const TexelCheck& check) {
+  TexelErrors errors;
+  const int side = fitted.map.side;
+  for (int layer = 0; layer < fitted.map.layerCount; ++layer) {
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const glm::ivec2 texel(x, y);
+        const float stored = depths[(static_cast<size_t>(layer) * side + y) * side + x];
+        if (!glsl::mapHoldsTexel(fitted.map, layer, texel)) {
+          if (stored != 1.0f) ++errors.off;
+          continue;
+        }
+        ++errors.held;
+        const auto hit = world.tracer->firstHit(rayThrough(fitted, layer, glm::dvec2(texel) + 0.5));
+        if (hit) ++errors.covered;
+        const glsl::Ray ray = glsl::mapTexelRay(fitted.map, layer, glsl::mapTexelCenter(fitted.map, texel));
+        double error = INFINITY;
+        if (!hit && stored == 1.0f) continue;
+        if (hit && stored < 1.0f) {
+          error = std::abs(static_cast<double>(glsl::mapDistance(fitted.map, layer, ray, stored)) -
+                           hit->distance);
+          if (error <= check.tolerance(layer, texel, *hit)) continue;
+        }
+        if (isNearPrimitiveEdge(*world.tracer, fitted, layer, texel, check.edgeReach)) {
+          ++errors.atEdges;
+        } else {
+          ++errors.off;
+          errors.worst = std::max(errors.worst, error);
+        }
+      }
+    }
+  }
+  return errors;
+}
+
+glm::vec3 randomDirection(std::mt19937& random) {
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  const float z = 2.0f * unit(random) - 1.0f;
+  const float azimuth = 2.0f * std::numbers::pi_v<float> * unit(random);
+  const float r = std::sqrt(std::max(1.0f - z * z, 0.0f));
+  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
+
+int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers,
+                  const std::vector<glsl::RoundTripQuery>& queries, const glsl::ShadowMap& map) {
+  int64_t worst = 0;
+  const auto compare = [&](float a, float b) { worst = std::max(worst, gpu::ulpDistance(a, b)); };
+  for (size_t i = 0; i < queries.size(); ++i) {
+    const glsl::RoundTrip expected = glsl::roundTrip(map, queries[i]);
+    const glsl::RoundTrip& answer = answers[i];
+    if (answer.layer != expected.layer || answer.covered != expected.covered ||
+        answer.layerAgain != expected.layerAgain)
+      return INT64_MAX;
+    for (int c = 0; c < 2; ++c) compare(answer.uv[c], expected.uv[c]);
+    for (int c = 0; c < 2; ++c) compare(answer.uvAgain[c], expected.uvAgain[c]);
+    for (int c = 0; c < 3; ++c) compare(answer.origin[c], expected.origin[c]);
+    for (int c = 0; c < 3; ++c) compare(answer.dir[c], expected.dir[c]);
+    compare(answer.depth, expected.depth);
+    compare(answer.slope, expected.slope);
+    compare(answer.distance, expected.distance);
+  }
+  return worst;
+}
+
+}  // namespace gnomon::test

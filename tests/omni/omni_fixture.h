@@ -1,0 +1,64 @@
+#pragma once
+// A scene with one point light, its maps, and what rays say of every texel.
+
+#include "omni/cube_map.h"
+#include "omni_functions.glsl"
+#include "scene/gbuffer.h"
+#include "scene/generate.h"
+#include "shadow/map_image.h"
+#include "tests/gpu_fixture.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace gnomon::test {
+
+struct World {
+  Scene scene;
+  std::unique_ptr<Tracer> tracer;
+  SceneBuffers buffers;
+  LightModel light;
+};
+// With the scene's first light that has a position, or a point light at `lightW`.
+World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3> lightW = {});
+
+// A map of the whole scene: no receivers, so that the far end lies behind every caster.
+FittedMap fitWhole(const World& world, const Parameterization& map, int side, const MapOptions& options = {});
+
+struct Layers {
+  std::vector<float> z1, z2;  // layer after layer; z2 only of TwoLayers
+};
+Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
+                  MapContent content = MapContent::OneLayer, SecondLayer method = SecondLayer::Blend);
+
+// The light ray through a place on a layer, in texels (the centre of texel (x, y) is (x + 0.5, y + 0.5)).
+RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place);
+
+// Every held texel against the first hit of its own ray. A texel near an edge of what is seen may hold the
+// other side of it.
+struct TexelErrors {
+  size_t held = 0;     // texels that a layer draws
+  size_t covered = 0;  // those whose ray hits something
+  size_t atEdges = 0;  // off, within `edgeReach` texels of the edge of a triangle
+  size_t off = 0;      // off elsewhere
+  double worst = 0.0;  // metres, of `off`
+};
+struct TexelCheck {
+  double edgeReach = 0.02;  // texels
+  // How far a stored distance may be from the hit's, metres.
+  std::function<double(int layer, glm::ivec2 texel, const SurfaceHit& hit)> tolerance;
+};
+TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const std::vector<float>& depths,
+                            const TexelCheck& check);
+
+// Unit directions, even over the sphere.
+glm::vec3 randomDirection(std::mt19937& random);
+
+// Over all members of all answers, against the CPU's. Layers and `covered` that differ are as bad as can be.
+int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers,
+                  const std::vector<glsl::RoundTripQuery>& queries, const glsl::ShadowMap& map);
+
+}  // namespace gnomon::test
