@@ -35,15 +35,15 @@ double wrongShare(const ReportRow& row) {
 }
 
 // The share of wrong pixels that fills a bar. One method without a bias errs a hundred times more than the
-// rest and would leave them no room: the scale ends at four times the median, and longer bars are cut.
+// rest and would leave them no room: the scale ends at three times the median, and longer bars are cut.
 double barScale(const std::vector<ReportRow>& rows) {
   std::vector<double> shares;
   for (const ReportRow& row : rows) shares.push_back(wrongShare(row));
   std::ranges::sort(shares);
   if (shares.empty() || shares.back() == 0.0) return 1.0;
   const double median = shares[shares.size() / 2];
-  if (median == 0.0 || shares.back() <= 4.0 * median) return shares.back();
-  return 4.0 * median;
+  if (median == 0.0 || shares.back() <= 3.0 * median) return shares.back();
+  return 3.0 * median;
 }
 
 bool isCut(const ReportRow& row, double scale) {
@@ -199,6 +199,23 @@ void setAxes(View& view, const Plot& plot, double gbufferMs) {
   view.set("zero", plot.hasZero ? zero : View(false));
 }
 
+View markView(const PlotItem& item, const PlotMark& mark, size_t rank, double frameMs, size_t shape) {
+  View view;
+  view.set("id", rowId(rank));
+  view.set("label", item.label);
+  view.set("title", fmt::format("{}: {} bias error, build and shade {:.2f} ms, frame {:.2f} ms", item.label,
+                                percent(item.error), item.costMs, frameMs));
+  view.set("shape", std::to_string(shape));
+  view.set("x", coordinate(mark.x));
+  view.set("y", coordinate(mark.y));
+  view.set("labelX", coordinate(mark.labelX));
+  view.set("labelY", coordinate(mark.labelY));
+  view.set("anchor", mark.anchor);
+  view.set("onFront", mark.onFront);
+  view.set("labelled", mark.labelled);
+  return view;
+}
+
 View plotView(const ReportData& data, const char* size, double width, double height) {
   std::vector<PlotItem> items;
   for (const ReportRow& row : data.rows)
@@ -221,24 +238,11 @@ View plotView(const ReportData& data, const char* size, double width, double hei
   front.set("path", plot.frontPath);
   view.set("front", plot.frontPath.empty() ? View(false) : front);
   View marks = viewList();
-  for (size_t i = 0; i < items.size(); ++i) {
-    const PlotMark& mark = plot.marks[i];
-    View item;
-    item.set("id", rowId(i + 1));
-    item.set("label", items[i].label);
-    item.set("title",
-             fmt::format("{}: {} bias error, build and shade {:.2f} ms, frame {:.2f} ms", items[i].label,
-                         percent(items[i].error), items[i].costMs, data.rows[i].frameMs));
-    item.set("shape", std::to_string(shapeOf(shapes, data.rows[i])));
-    item.set("x", coordinate(mark.x));
-    item.set("y", coordinate(mark.y));
-    item.set("labelX", coordinate(mark.labelX));
-    item.set("labelY", coordinate(mark.labelY));
-    item.set("anchor", mark.anchor);
-    item.set("onFront", mark.onFront);
-    item.set("labelled", mark.labelled);
-    marks.push_back(item);
-  }
+  for (const bool onFront : {false, true})  // the front is drawn over the rest
+    for (size_t i = 0; i < items.size(); ++i)
+      if (plot.marks[i].onFront == onFront)
+        marks.push_back(
+            markView(items[i], plot.marks[i], i + 1, data.rows[i].frameMs, shapeOf(shapes, data.rows[i])));
   view.set("marks", marks);
   return view;
 }

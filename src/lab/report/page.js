@@ -47,7 +47,7 @@
       const swapped = exact.hasAttribute("src") && pinned !== hovered;
       stage.classList.toggle("swapped", swapped);
       stage.setAttribute("aria-pressed", String(pinned));
-      const text = swapped ? "exact shadow" : `${title}, ${kind.title}`;
+      const text = swapped ? "exact shadow" : `${title}, ${kind.title.toLowerCase()}`;
       viewer.querySelector(".shown").textContent = text;
       if (!hovered) viewer.querySelector(".state").textContent = `Shown: ${text}.`;
       stage.setAttribute("aria-label", `${text}; swap with the exact shadow`);
@@ -140,6 +140,8 @@
       crops.className = "crops";
       look.append(crops);
       makeCrops(row, kinds, crops);
+    } else {
+      look.append(row.querySelector(".columns"));
     }
   }
 
