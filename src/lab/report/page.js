@@ -43,6 +43,7 @@
     let kind = null, pinned = false, hovered = false;
 
     stage.style.aspectRatio = `${row.dataset.width} / ${row.dataset.height}`;
+    stage.classList.toggle("small", Number(row.dataset.width) <= 320);  // magnified twice: show the pixels
     const show = () => {
       const swapped = exact.hasAttribute("src") && pinned !== hovered;
       stage.classList.toggle("swapped", swapped);
