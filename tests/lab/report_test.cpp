@@ -226,13 +226,16 @@ TEST_F(ReportTest, SaysWhichPicturesAreMissing) {
   fs::remove(folder_ / "spot" / "dual.labels.png");
   writeTextFile(folder_ / "spot" / "none.beauty.png", "no picture");
   writeTextFile(folder_ / "spot" / "none.labels.png", std::string("\x89PNG\r\n\x1a\n", 8));
-  json_["rows"][1]["pictures"]["labels"] = "../elsewhere.png";
-  json_["rows"][1]["pictures"]["beauty"] = "/etc/hostname.png";
+  const std::string around = "../" + folder_.filename().string() + "/spot/dual.visibility.png";
+  const std::string absolute = (folder_ / "spot" / "dual.visibility.png").string();
+  json_["rows"][1]["pictures"]["labels"] = around;
+  json_["rows"][1]["pictures"]["beauty"] = absolute;
   const std::string html = page();
   expectSound(html);
   EXPECT_NE(html.find("6 pictures named in results.json cannot be read"), std::string::npos);
-  for (const char* path : {"spot/second_depth.png", "spot/dual.labels.png", "spot/none.beauty.png",
-                           "spot/none.labels.png", "../elsewhere.png", "/etc/hostname.png"})
+  for (const std::string& path :
+       {std::string("spot/second_depth.png"), std::string("spot/dual.labels.png"),
+        std::string("spot/none.beauty.png"), std::string("spot/none.labels.png"), around, absolute})
     EXPECT_NE(html.find(path), std::string::npos) << path;
 }
 
