@@ -24,11 +24,12 @@ constexpr int kMaxSide = 16384;  // of a picture, pixels
 // A value and where it stands in the file, for messages: "rows[3].bias".
 class Field {
  public:
-  Field(const Json& json, std::string where) : json_(json), where_(std::move(where)) {}
+  Field(const Json& json, const std::string& file, std::string where)
+      : json_(json), file_(file), where_(std::move(where)) {}
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw WorldError(fmt::format("results.json: {} {}; write it anew with gnomon compare -o",
-                                 where_.empty() ? "its value" : where_, what));
+    throw fileError(file_, fmt::format("{} {}", where_.empty() ? "its value" : where_, what),
+                    "write it anew with gnomon compare -o");
   }
 
   bool has(const char* key) const {
@@ -38,8 +39,8 @@ class Field {
     const std::string path = where_.empty() ? key : where_ + "." + key;
     if (!json_.is_object()) fail("must be an object");
     const auto found = json_.find(key);
-    if (found == json_.end()) Field(json_, path).fail("is missing");
-    return {*found, path};
+    if (found == json_.end()) Field(json_, file_, path).fail("is missing");
+    return {*found, file_, path};
   }
 
   std::string text() const {
@@ -66,12 +67,12 @@ class Field {
   template <typename Visit>
   void forItems(const Visit& visit) const {
     if (!json_.is_array()) fail("must be a list");
-    for (size_t i = 0; i < json_.size(); ++i) visit(Field(json_[i], fmt::format("{}[{}]", where_, i)));
+    for (size_t i = 0; i < json_.size(); ++i) visit(Field(json_[i], file_, fmt::format("{}[{}]", where_, i)));
   }
   template <typename Visit>
   void forMembers(const Visit& visit) const {
     if (!json_.is_object()) fail("must be an object");
-    for (const auto& [key, value] : json_.items()) visit(key, Field(value, where_ + "." + key));
+    for (const auto& [key, value] : json_.items()) visit(key, Field(value, file_, where_ + "." + key));
   }
 
   // Any scalar, as a person writes it.
@@ -85,6 +86,7 @@ class Field {
 
  private:
   const Json& json_;
+  const std::string& file_;
   std::string where_;
 };
 
@@ -288,7 +290,7 @@ ReportData readReportData(const fs::path& folder) {
   } catch (const Json::exception& error) {
     throw fileError(path.string(), "is not JSON", error.what());
   }
-  return readAll(Field(json, ""), folder);
+  return readAll(Field(json, path.string(), ""), folder);
 }
 
 }  // namespace gnomon
