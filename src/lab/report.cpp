@@ -199,12 +199,14 @@ void setAxes(View& view, const Plot& plot, double gbufferMs) {
   view.set("zero", plot.hasZero ? zero : View(false));
 }
 
-View markView(const PlotItem& item, const PlotMark& mark, size_t rank, double frameMs, size_t shape) {
+View markView(const ReportData& data, size_t index, const PlotItem& item, const PlotMark& mark,
+              size_t shape) {
+  const ReportRow& row = data.rows[index];
   View view;
-  view.set("id", rowId(rank));
+  view.set("id", rowId(index + 1));
   view.set("label", item.label);
-  view.set("title", fmt::format("{}: {} bias error, build and shade {:.2f} ms, frame {:.2f} ms", item.label,
-                                percent(item.error), item.costMs, frameMs));
+  view.set("title", fmt::format("{}: {} bias error, build and shade {:.2f} ms, frame {:.2f} ms",
+                                rowName(data, row), percent(item.error), item.costMs, row.frameMs));
   view.set("shape", std::to_string(shape));
   view.set("x", coordinate(mark.x));
   view.set("y", coordinate(mark.y));
@@ -219,7 +221,7 @@ View markView(const PlotItem& item, const PlotMark& mark, size_t rank, double fr
 View plotView(const ReportData& data, const char* size, double width, double height) {
   std::vector<PlotItem> items;
   for (const ReportRow& row : data.rows)
-    items.push_back({rowName(data, row), row.buildMs + row.shadeMs, std::max(row.biasError, 0.0)});
+    items.push_back({methodName(data, row), row.buildMs + row.shadeMs, std::max(row.biasError, 0.0)});
   const Plot plot = layOutPlot(items, width, height);
   const std::vector<std::string> shapes = shapeNames(data);
   View view;
@@ -241,8 +243,7 @@ View plotView(const ReportData& data, const char* size, double width, double hei
   for (const bool onFront : {false, true})  // the front is drawn over the rest
     for (size_t i = 0; i < items.size(); ++i)
       if (plot.marks[i].onFront == onFront)
-        marks.push_back(
-            markView(items[i], plot.marks[i], i + 1, data.rows[i].frameMs, shapeOf(shapes, data.rows[i])));
+        marks.push_back(markView(data, i, items[i], plot.marks[i], shapeOf(shapes, data.rows[i])));
   view.set("marks", marks);
   return view;
 }

@@ -1,9 +1,11 @@
 #include "lab/report_plot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -12,9 +14,13 @@ namespace gnomon {
 namespace {
 
 constexpr double kTextHeight = 13.0;
-constexpr double kTextWidth = 6.6;  // of a letter, on average, at 12 units' size
+constexpr double kTextWidth = 6.8;      // of a letter, on average, at 12 units' size
+constexpr double kBoldTextWidth = 7.6;  // as the front's labels are
 constexpr double kMarkRadius = 6.0;
 constexpr double kZeroStrip = 34.0;  // below the smallest error, when there is a 0
+
+constexpr size_t kCrowd = 24;                            // items
+constexpr std::array kLabelDistances = {1.0, 1.6, 2.4};  // from the mark, in gaps, nearest first
 
 struct Box {
   double x0, y0, x1, y1;
@@ -97,7 +103,8 @@ void placeLabels(const std::vector<PlotItem>& items, Plot& plot) {
   std::stable_partition(order.begin(), order.end(), [&](size_t i) { return plot.marks[i].onFront; });
   for (const size_t i : order) {
     PlotMark& mark = plot.marks[i];
-    const double width = kTextWidth * static_cast<double>(items[i].label.size());
+    const double width =
+        (mark.onFront ? kBoldTextWidth : kTextWidth) * static_cast<double>(items[i].label.size());
     const auto tryAt = [&](double x, double y, const char* anchor) {
       const double x0 = *anchor == 's' ? x : *anchor == 'e' ? x - width : x - width / 2;
       const Box box{x0, y - kTextHeight + 3.0, x0 + width, y + 3.0};
@@ -111,7 +118,9 @@ void placeLabels(const std::vector<PlotItem>& items, Plot& plot) {
       mark.labelled = true;
       taken.push_back(box);
     };
-    for (const double away : {1.0, 1.6, 2.4}) {
+    // In a crowd a label away from its mark could be anybody's.
+    for (const double away :
+         std::span(kLabelDistances).first(items.size() > kCrowd ? 1 : kLabelDistances.size())) {
       const double gap = away * (kMarkRadius + 3.0);
       tryAt(mark.x + gap, mark.y + 4.0, "start");
       tryAt(mark.x, mark.y - gap, "middle");

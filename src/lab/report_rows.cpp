@@ -34,7 +34,8 @@ std::string knobUnit(const ReportRow& row, const std::string& knob) {
   if (row.tuning && row.tuning->knob == knob && knob != row.tuning->unit) return row.tuning->unit;
   for (const BiasMethod& method : biasMethods())
     for (const BiasKnob& listed : method.knobs)
-      if (method.name == row.bias && listed.name == knob && knob != unitName(listed.unit)) return unitName(listed.unit);
+      if (method.name == row.bias && listed.name == knob && knob != unitName(listed.unit))
+        return unitName(listed.unit);
   return "";
 }
 
@@ -264,17 +265,20 @@ std::string rowId(size_t rank) {
   return fmt::format("row-{}", rank);
 }
 
-std::string rowName(const ReportData& data, const ReportRow& row) {
-  const auto differs = [&](auto member) {
-    return std::ranges::any_of(data.rows,
-                               [&](const ReportRow& other) { return other.*member != row.*member; });
-  };
+std::string methodName(const ReportData& data, const ReportRow& row) {
   std::string name = row.bias;
   if (row.tuned) name += " tuned";
-  if (differs(&ReportRow::filter)) name += row.filter == "none" ? "" : " " + row.filter;
-  if (differs(&ReportRow::map)) name += ", " + row.map;
-  if (differs(&ReportRow::mapSize)) name += fmt::format(" {}", row.mapSize);
+  const bool filtersDiffer =
+      std::ranges::any_of(data.rows, [&](const ReportRow& other) { return other.filter != row.filter; });
+  if (filtersDiffer && row.filter != "none") name += " " + row.filter;
   return name;
+}
+
+std::string rowName(const ReportData& data, const ReportRow& row) {
+  const bool mapsDiffer = std::ranges::any_of(data.rows, [&](const ReportRow& other) {
+    return other.map != row.map || other.mapSize != row.mapSize;
+  });
+  return methodName(data, row) + (mapsDiffer ? fmt::format(", {} {}", row.map, row.mapSize) : "");
 }
 
 }  // namespace gnomon

@@ -36,7 +36,8 @@ struct RowContext {
 View rowView(const ReportRow& row, size_t rank, const RowContext& context, ReportPictureShelf& shelf);
 
 std::string rowId(size_t rank);  // "row-3"
-// Map, bias, filter: what tells this row from the others of the comparison.
+// What tells this row from the others of the comparison: bias and filter, and with them the map.
+std::string methodName(const ReportData& data, const ReportRow& row);
 std::string rowName(const ReportData& data, const ReportRow& row);
 
 }  // namespace gnomon

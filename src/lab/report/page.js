@@ -51,7 +51,7 @@
       const text = swapped ? "exact shadow" : `${title}, ${kind.title.toLowerCase()}`;
       viewer.querySelector(".shown").textContent = text;
       if (!hovered) viewer.querySelector(".state").textContent = `Shown: ${text}.`;
-      stage.setAttribute("aria-label", `${text}; swap with the exact shadow`);
+      stage.setAttribute("aria-label", stage.disabled ? text : `${text}; swap with the exact shadow`);
     };
     const choose = (next) => {
       kind = next;
