@@ -6,6 +6,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
@@ -83,6 +84,24 @@ Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what) {
     if (n == 4 || n == 2) image.values[4 * i + 3] = raw[n * i + n - 1];
   }
   return image;
+}
+
+std::string encodeJpeg(const Image8& image, int quality) {
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("compression", fmt::format("jpeg:{}", quality));
+  OIIO::Filesystem::IOVecOutput memory;
+  auto out = OIIO::ImageOutput::create("memory.jpg");
+  GNOMON_CHECK(out && out->supports("ioproxy"));
+  out->set_ioproxy(&memory);
+  if (!out->open("memory.jpg", spec) || !out->write_image(OIIO::TypeDesc::UINT8, image.values.data()) ||
+      !out->close())
+    throw fileError("a JPEG picture", "cannot be encoded", out->geterror());
+  return {memory.buffer().begin(), memory.buffer().end()};
+}
+
+std::string base64(std::string_view bytes) {
+  return OIIO::Strutil::base64_encode({bytes.data(), bytes.size()});
 }
 
 float srgbFromLinear(float linear) {

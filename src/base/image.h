@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -42,6 +43,12 @@ ImageF readImage(const std::filesystem::path& path);
 // Decodes an image held in memory (PNG, JPEG) to RGBA8; sRGB values stay sRGB. Throws WorldError that names
 // `what`.
 Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what);
+
+// A JPEG file in memory, of 1 or 3 channels; `quality` 1..100. Throws WorldError.
+std::string encodeJpeg(const Image8& image, int quality);
+
+// RFC 4648, with padding: for data URIs.
+std::string base64(std::string_view bytes);
 
 // IEC 61966-2-1.
 float srgbFromLinear(float linear);

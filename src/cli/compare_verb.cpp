@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
+#include "lab/report.h"
 #include "lab/results.h"
 #include "lab/table.h"
 #include "lab/threshold.h"
@@ -36,14 +37,18 @@ int runCompare(const CompareFlags& flags) {
   const Session session = openSession(flags.scene);
   const Comparison comparison = compare(session, options);
   const std::string json = resultsJson(session, flags.scene.setup, comparison, commandLine());
-  if (!flags.out.empty()) writeTextFile(options.outDir / "results.json", json);
+  if (!flags.out.empty()) {
+    writeTextFile(options.outDir / "results.json", json);
+    writeTextFile(options.outDir / "report.html", reportHtml(options.outDir));
+  }
   if (!flags.json.empty()) writeTextFile(flags.json, json);
 
   std::fputs(comparisonHeader(session, comparison).c_str(), stdout);
   std::fputs(comparisonTable(comparison).c_str(), stdout);
   std::fputs(tuningTable(comparison).c_str(), stdout);
   if (!flags.out.empty())
-    std::printf("wrote %s/results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
+    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(),
+                flags.out.c_str());
   for (const Threshold& threshold : thresholds) {
     if (const std::optional<std::string> line = crossed(threshold, comparison.rows)) {
       std::fprintf(stderr, "gnomon: %s\n", line->c_str());
@@ -61,7 +66,8 @@ Run addCompareVerb(CLI::App& app) {
       "compare", "every chosen map x bias against the exact shadow: table, pictures, results.json");
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "all");
-  verb->add_option("-o,--out", flags->out, "folder for pictures and results.json; none: the table only");
+  verb->add_option("-o,--out", flags->out,
+                   "folder for report.html, pictures and results.json; none: the table only");
   verb->add_option("--json", flags->json, "write results.json here");
   verb->add_option(
       "--fail-if", flags->failIf,

@@ -29,6 +29,7 @@ int parseAndRun(int argc, char** argv) {
   app.option_defaults()->always_capture_default(false);
   std::vector<std::pair<const char*, Run>> verbs = {{"compare", addCompareVerb(app)},
                                                     {"render", addRenderVerb(app)},
+                                                    {"report", addReportVerb(app)},
                                                     {"scene", addSceneVerb(app)},
                                                     {"info", addInfoVerb(app)}};
   try {

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "lab/flip.h"
 #include "lab/pictures.h"
 #include "lab/robustness.h"
 #include "lab/row_pictures.h"
@@ -166,7 +167,12 @@ class MapComparison {
       const int width = exact_.receivers.width, height = exact_.receivers.height;
       row.worstAcne = findWorstPlace(judged.labels, width, height, Label::Acne);
       row.worstLeak = findWorstPlace(judged.labels, width, height, Label::Leak);
-      const Image8 beauty = toSrgb8(renderRadiance(session_, passes_, exact_, visibility));
+      // Half a second a row at 1024 x 1024: what binary results have labels for.
+      const bool flips = options_.filters.size() > 1 || filter->id != glsl::kFilterNone;
+      Image8 beauty;
+      if (flips || !options_.outDir.empty())
+        beauty = toSrgb8(renderRadiance(session_, passes_, exact_, visibility));
+      if (flips) row.flip = computeFlip(truth.beauty, beauty).mean;
       if (!options_.outDir.empty())
         row.pictures =
             writeRowPictures(exact_, judged, visibility, beauty, truth, namesOf(row), options_.outDir);

@@ -41,7 +41,6 @@ using Pictures = std::vector<std::pair<std::string, std::string>>;
 
 // How good a tuned value is where it was not tuned.
 struct Elsewhere {
-  std::string where;           // the other camera, or the other map's side
   double biasError = 0.0;      // with the tuned value
   double bestBiasError = 0.0;  // with the value tuned there
   double bestValue = 0.0;
@@ -52,7 +51,10 @@ struct Tuning {
   double value = 0.0;
   std::string unit;
   int evaluations = 0;
-  std::optional<Elsewhere> otherCamera, otherMapSize;
+  std::optional<Elsewhere> otherCamera;
+  std::string otherCameraName;
+  std::optional<Elsewhere> otherMapSize;
+  int otherMapSide = 0;  // texels
 };
 
 // The square of the picture with the most pixels of one label.
@@ -81,7 +83,8 @@ struct Row {
   // Of the visibility against the truth through the same filter, over the scored pixels. A pixel that the map
   // does not cover counts as predicted lit.
   double rmse = 0.0;
-  std::optional<double> flip;    // mean FLIP of the shaded picture against the same by the truth
+  // Mean FLIP of the shaded picture against the same by the truth; where any filter is asked for.
+  std::optional<double> flip;
   std::optional<Tuning> tuning;  // of rows whose knobs were searched
   std::optional<WorstPlace> worstAcne, worstLeak;
   Pictures pictures;  // labels, visibility, beauty, difference, data

@@ -70,9 +70,9 @@ Json toJson(const std::optional<WorstPlace>& place) {
   return {{"x", place->x}, {"y", place->y}, {"size", place->size}, {"pixels", place->pixels}};
 }
 
-Json toJson(const std::optional<Elsewhere>& elsewhere, const char* where) {
+Json toJson(const std::optional<Elsewhere>& elsewhere, const char* key, const Json& where) {
   if (!elsewhere) return nullptr;
-  return {{where, elsewhere->where},
+  return {{key, where},
           {"bias_error", elsewhere->biasError},
           {"best_bias_error", elsewhere->bestBiasError},
           {"best_value", shortest(static_cast<float>(elsewhere->bestValue))}};
@@ -84,8 +84,8 @@ Json toJson(const std::optional<Tuning>& tuning) {
           {"value", shortest(static_cast<float>(tuning->value))},
           {"unit", tuning->unit},
           {"evaluations", tuning->evaluations},
-          {"other_camera", toJson(tuning->otherCamera, "camera")},
-          {"other_map_size", toJson(tuning->otherMapSize, "map_size")}};
+          {"other_camera", toJson(tuning->otherCamera, "camera", tuning->otherCameraName)},
+          {"other_map_size", toJson(tuning->otherMapSize, "map_size", tuning->otherMapSide)}};
 }
 
 Json toJson(const MapSummary& map) {

@@ -55,11 +55,10 @@ struct Robustness::Place {
   Exact exact;
   std::unique_ptr<MapSet> maps;
   std::unique_ptr<Trial> trial;
-  std::string where;
 
   Place(const Session& s, Exact e, const CompareOptions& options, const Parameterization& parameterization,
         int side, std::string name)
-      : session(s), passes(s.device(), s.view()), exact(std::move(e)), where(std::move(name)) {
+      : session(s), passes(s.device(), s.view()), exact(std::move(e)) {
     const Fit fit = fitMap(s, parameterization, exact, side, options.mapOptions);
     maps = std::make_unique<MapSet>(s, passes.map, fit.fitted, exact, options.cull);
     trial = std::make_unique<Trial>(s, passes, exact, *maps);
@@ -72,17 +71,15 @@ Robustness::Robustness(const Session& session, const Exact& exact, const Compare
   otherSession_ = std::make_unique<Session>(session, orbitedCamera(session));
   Exact other = traceExact(*otherSession_, exact.source, exact.light);
   if (other.receivers.scored > 0)
-    otherCamera_ = std::make_unique<Place>(*otherSession_, std::move(other), options, parameterization, side,
-                                           otherSession_->camera().name);
+    otherCamera_ = std::make_unique<Place>(*otherSession_, std::move(other), options, parameterization, side);
   const int half = std::max(side / 2, 2);
-  otherMapSize_ =
-      std::make_unique<Place>(session, exact, options, parameterization, half, fmt::format("{}", half));
+  otherMapSize_ = std::make_unique<Place>(session, exact, options, parameterization, half);
 }
 
 Robustness::~Robustness() = default;
 
 Elsewhere Robustness::judgeAt(Place& place, const TunedMethod& tuned) {
-  Elsewhere elsewhere{.where = place.where};
+  Elsewhere elsewhere;
   const double scored = place.trial->scored();
   const size_t errors = place.trial->biasErrors(tuned.method);
   const TunedMethod best = tune(*place.trial, tuned.method);
@@ -101,7 +98,9 @@ Tuning Robustness::judge(const TunedMethod& tuned) {
           .unit = unitName(knob.unit),
           .evaluations = tuned.evaluations,
           .otherCamera = otherCamera_ ? std::optional(judgeAt(*otherCamera_, tuned)) : std::nullopt,
-          .otherMapSize = judgeAt(*otherMapSize_, tuned)};
+          .otherCameraName = otherSession_->camera().name,
+          .otherMapSize = judgeAt(*otherMapSize_, tuned),
+          .otherMapSide = otherMapSize_->maps->fitted().map.side};
 }
 
 }  // namespace gnomon

@@ -92,10 +92,10 @@ std::string tuningTable(const Comparison& comparison) {
     text += fmt::format("tuned {} {}: {} in {} tries; bias error {:.4f}%", row.map, row.bias, knobText(row),
                         tuning.evaluations, 100.0 * row.biasError());
     if (tuning.otherCamera)
-      text += fmt::format("; camera {} {:.4f}% (best there {:.4f}%)", tuning.otherCamera->where,
+      text += fmt::format("; camera {} {:.4f}% (best there {:.4f}%)", tuning.otherCameraName,
                           100.0 * tuning.otherCamera->biasError, 100.0 * tuning.otherCamera->bestBiasError);
     if (tuning.otherMapSize)
-      text += fmt::format("; map of {} {:.4f}% (best there {:.4f}%)", tuning.otherMapSize->where,
+      text += fmt::format("; map of {} {:.4f}% (best there {:.4f}%)", tuning.otherMapSide,
                           100.0 * tuning.otherMapSize->biasError, 100.0 * tuning.otherMapSize->bestBiasError);
     text += "\n";
   }

@@ -57,6 +57,33 @@ TEST_F(ImageTest, GarbageIsRefusedByName) {
   }
 }
 
+TEST(EncodeJpeg, ComesBackNearlyAsItWas) {
+  Image8 image(64, 48, 3);
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x) {
+      image.at(x, y)[0] = static_cast<uint8_t>(3 * x);
+      image.at(x, y)[1] = static_cast<uint8_t>(200 - 2 * x);
+      image.at(x, y)[2] = static_cast<uint8_t>(4 * y);
+    }
+  const std::string bytes = encodeJpeg(image, 95);
+  EXPECT_EQ(bytes, encodeJpeg(image, 95));
+  EXPECT_LT(encodeJpeg(image, 20).size(), bytes.size());
+  const Image8 back = decodeImage(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), "a.jpg");
+  ASSERT_EQ(back.width, 64);
+  ASSERT_EQ(back.height, 48);
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x)
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(back.at(x, y)[c], image.at(x, y)[c], 12);
+}
+
+TEST(Base64, HasTheVectorsOfRfc4648) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfb"), "//77");
+}
+
 TEST(Srgb, RoundTrips) {
   for (int i = 0; i <= 255; ++i) {
     const float value = static_cast<float>(i) / 255.0f;

@@ -69,6 +69,34 @@ TEST_F(CliTest, CompareWritesATableResultsAndPicturesAndNoMessageOfValidation) {
   EXPECT_TRUE(fs::exists(folder_ / "out" / "directional" / "depth.exr"));
 }
 
+TEST_F(CliTest, CompareLeavesAPageAndReportMakesTheSameOneAgain) {
+  const Result compared =
+      run("compare corner --biases none,adaptive --size 32 --map-size 32 --repeats 1 -o @/out");
+  ASSERT_EQ(compared.exitCode, 0) << compared.err;
+  EXPECT_NE(compared.out.find("out/report.html"), std::string::npos) << compared.out;
+  const Result reported = run("report @/out -o @/page.html");
+  EXPECT_EQ(reported.exitCode, 0) << reported.err;
+  EXPECT_NE(reported.out.find("page.html"), std::string::npos);
+  const std::string page = readFile(folder_ / "page.html");
+  EXPECT_TRUE(page.starts_with("<!doctype html>"));
+  EXPECT_EQ(page, readFile(folder_ / "out" / "report.html"));
+}
+
+TEST_F(CliTest, AReportOfNothingOrOfGarbageIsRefusedInOneLine) {
+  fs::create_directory(folder_ / "run");
+  expectMistake("report", 2, "DIR");
+  expectMistake("report @/run", 2, "--out");
+  expectMistake("report @/nowhere -o @/a.html", 1, "nowhere/results.json: does not exist");
+  expectMistake("report @/run -o @/a.html", 1, "results.json: does not exist");
+  writeTextFile(folder_ / "run" / "results.json", "{\"schema\": 2");
+  expectMistake("report @/run -o @/a.html", 1, "run/results.json: is not JSON");
+  writeTextFile(folder_ / "run" / "results.json", "{\"schema\": 99}");
+  expectMistake("report @/run -o @/a.html", 1, "run/results.json: has schema 99");
+  writeTextFile(folder_ / "run" / "results.json", "{\"schema\": 2}");
+  expectMistake("report @/run -o @/a.html", 1, "run/results.json: gnomon is missing");
+  EXPECT_EQ(fileCount(), 1u);
+}
+
 TEST_F(CliTest, EveryBiasKnobIsAFlag) {
   const Result result =
       run("compare corner --biases constant,adaptive --constant-offset 0.125 --adaptive-k 0.002 --epsilon-at "

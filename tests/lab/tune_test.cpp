@@ -85,7 +85,7 @@ TEST_F(TuneTest, RobustnessIsNeverBetterThanTheBestThere) {
     EXPECT_GE(elsewhere->biasError, elsewhere->bestBiasError);
     EXPECT_GT(elsewhere->bestValue, 0.0);
   }
-  EXPECT_EQ(tuning.otherMapSize->where, "32");
+  EXPECT_EQ(tuning.otherMapSide, 32);
   // A constant tuned for small texels is too small for large ones.
   EXPECT_GT(tuning.otherMapSize->biasError, tuning.otherMapSize->bestBiasError);
 }

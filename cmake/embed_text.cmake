@@ -1,0 +1,17 @@
+# Writes OUTPUT: each of FILES below ROOT as a string that HEADER declares, in NAMESPACE. "report/page.css" becomes
+# kReportPageCss. Raw string literals hold at most 65,536 characters, which no page here comes near.
+set(text "// Made by cmake/embed_text.cmake.\n#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n\n")
+foreach(file IN LISTS FILES)
+  file(READ ${ROOT}/${file} content)
+  string(REGEX REPLACE "[/._-]" ";" words ${file})
+  set(name k)
+  foreach(word IN LISTS words)
+    string(SUBSTRING ${word} 0 1 first)
+    string(SUBSTRING ${word} 1 -1 rest)
+    string(TOUPPER ${first} first)
+    string(APPEND name ${first}${rest})
+  endforeach()
+  string(APPEND text "const char* const ${name} = R\"GNOMON(${content})GNOMON\";\n")
+endforeach()
+string(APPEND text "\n}  // namespace ${NAMESPACE}\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,37 @@
+#include "base/file.h"
+#include "cli/verbs.h"
+#include "lab/report.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace gnomon {
+
+namespace {
+
+struct ReportFlags {
+  std::string folder;
+  std::string out;
+};
+
+int runReport(const ReportFlags& flags) {
+  writeTextFile(flags.out, reportHtml(flags.folder));
+  std::printf("wrote %s\n", flags.out.c_str());
+  return 0;
+}
+
+}  // namespace
+
+Run addReportVerb(CLI::App& app) {
+  auto flags = std::make_shared<ReportFlags>();
+  CLI::App* verb =
+      app.add_subcommand("report", "one self-contained HTML page of what compare wrote into a folder");
+  verb->add_option("DIR", flags->folder, "a folder that gnomon compare -o wrote")->required();
+  verb->add_option("-o,--out", flags->out, "the page: FILE.html")->required();
+  return [flags] { return runReport(*flags); };
+}
+
+}  // namespace gnomon
