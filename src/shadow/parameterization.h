@@ -25,6 +25,8 @@ struct FittedMap {
   // Clip distances of layer 0 along the light's axis, metres; for reports.
   float zNear = 0.0f;
   float zFar = 0.0f;
+  // What a report should say of the fit: why a warp was weakened or not applied. Empty: nothing.
+  std::string note = {};
 };
 
 // What a map may be fitted to.
