@@ -38,6 +38,29 @@ std::string knobHelp(const BiasMethod& method, const BiasKnob& knob) {
                      knob.defaultOfSceneScale ? " of the scene's diagonal" : "");
 }
 
+void addFitFlags(CLI::App& verb, MethodFlags& flags) {
+  verb.add_option(
+          "--fit", flags.fit,
+          "what spot and directional maps enclose. none: the whole cone or scene; tight: the camera's "
+          "frustum cut to the scene; focused: the surfaces the camera sees and the light faces")
+      ->capture_default_str();
+  verb.add_option("--snap", flags.snap,
+                  "on: texels of spot and directional maps keep their places in the world while the camera "
+                  "moves, for "
+                  "up to 9% of the resolution; off: the window itself. Warped maps cannot snap")
+      ->capture_default_str();
+  verb.add_option(
+          "--warp", flags.warp,
+          "shape the texels of spot and directional maps to the camera: none, psm (perspective shadow maps), "
+          "lispsm (light space perspective) or tsm (trapezoidal)")
+      ->capture_default_str();
+  verb.add_option(
+          "--cascades", flags.cascades,
+          fmt::format("layers of a directional map, 1..{}, split by the practical scheme; not with --warp",
+                      kMostCascades))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void setCommandLine(int argc, char** argv) {
@@ -112,6 +135,7 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
   verb.add_option("--epsilon-at", flags.epsilonAt,
                   "where adaptive takes its epsilon: fragment, occluder or stored")
       ->capture_default_str();
+  addFitFlags(verb, flags);
   for (const BiasMethod& method : biasMethods())
     for (const BiasKnob& knob : method.knobs)
       verb.add_option_function<float>(
@@ -126,6 +150,11 @@ CompareOptions compareOptions(const MethodFlags& flags) {
   options.biases = parseBiases(flags.biases);
   options.cull = parseCullMode(flags.cull);
   options.epsilonAt = parseEpsilonAt(flags.epsilonAt);
+  options.mapOptions.fit = parseWindowFit(flags.fit);
+  options.mapOptions.snap = parseSnap(flags.snap);
+  options.mapOptions.warp = parseWarp(flags.warp);
+  options.mapOptions.cascades = flags.cascades;
+  checkMapOptions(options.mapOptions);
   options.mapSide = flags.mapSize;
   options.mapTexels = flags.mapTexels;
   if (flags.mapTexels < 0)

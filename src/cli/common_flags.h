@@ -28,9 +28,14 @@ struct MethodFlags {
   long mapTexels = 0;
   std::string cull = "solids";
   std::string epsilonAt = "occluder";
+  std::string fit = "focused";
+  std::string snap = "on";
+  std::string warp = "none";
+  int cascades = 1;
   std::map<std::string, float> knobs;  // flag -> value
 };
-// --maps, --biases, --map-size, --map-texels, --cull, --epsilon-at and a flag a knob.
+// --maps, --biases, --map-size, --map-texels, --cull, --epsilon-at, --fit, --snap, --warp, --cascades and a
+// flag a knob.
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases);
 // Throws UsageError.
 CompareOptions compareOptions(const MethodFlags& flags);

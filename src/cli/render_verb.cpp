@@ -2,6 +2,7 @@
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
 #include "lab/pictures.h"
+#include "shadow/texel_density.h"
 
 #include <array>
 #include <cstdio>
@@ -21,7 +22,7 @@ struct RenderFlags {
   std::string show = "beauty";
 };
 
-constexpr std::array kShows = {"beauty", "visibility", "truth", "labels", "depth"};
+constexpr std::array kShows = {"beauty", "visibility", "truth", "labels", "depth", "density"};
 
 struct Picture {
   Image8 png;
@@ -44,11 +45,18 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
     const std::vector<float> truth = truthVisibility(exact.receivers, exact.truth);
     return {visibilityPicture(exact.receivers, truth), oneChannel(session, truth), {"Y"}};
   }
-  const DrawnMap map = drawMap(
-      session, passes.map,
+  const FittedMap fitted =
       fitMap(session, parameterization, exact, mapSideOf(options, parameterization), options.mapOptions)
-          .fitted,
-      exact, bias.content, options.cull);
+          .fitted;
+  if (!fitted.note.empty()) std::fprintf(stderr, "gnomon: %s\n", fitted.note.c_str());
+  if (show == "density") {
+    const std::vector<float> densities = texelDensities(fitted, exact.receivers);
+    const std::string title = fmt::format("{}, {} x {} x {} texels", parameterization.name(),
+                                          fitted.map.layerCount, fitted.map.side, fitted.map.side);
+    return {
+        densityPicture(exact.receivers, densities, title), oneChannel(session, densities), {"texels_per_m2"}};
+  }
+  const DrawnMap map = drawMap(session, passes.map, fitted, exact, bias.content, options.cull);
   if (show == "depth") {
     const ImageF metres = depthInMetres(session, map);
     return {depthPicture(metres), metres, {"metres"}};
@@ -97,7 +105,8 @@ Run addRenderVerb(CLI::App& app) {
   addMethodFlags(*verb, flags->method, "spot", "adaptive");
   verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")
       ->required();
-  verb->add_option("--show", flags->show, "beauty, visibility, truth, labels or depth")
+  verb->add_option("--show", flags->show,
+                   "beauty, visibility, truth, labels, depth or density (texels per square metre)")
       ->check(CLI::IsMember(std::vector<std::string>(kShows.begin(), kShows.end())))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };

@@ -50,6 +50,7 @@ Row rowFor(const Parameterization& map, const BiasMethod& bias, const glsl::Bias
   }
   row.content = contentName(bias.content);
   row.cull = cullModeName(options.cull);
+  row.mapOptions = options.mapOptions;
   if (bias.hasEpsilon) row.epsilonAt = epsilonAtName(params.epsilonAt);
   row.agree = labels.count(Label::Agree);
   row.acne = labels.count(Label::Acne);
@@ -199,7 +200,7 @@ ImageF depthInMetres(const Session& session, const DrawnMap& map) {
         // directional).
         const float nearEnd = map.fitted.map.mapLayers[layer].clipFromLight[2][3] != 0.0f
                                   ? glm::length(ray.origin)
-                                  : map.fitted.zNear;
+                                  : -ray.origin.z;
         *metres.at(layer * side + x, y) = d >= 1.0f
                                               ? std::numeric_limits<float>::infinity()
                                               : nearEnd + glsl::mapDistance(map.fitted.map, layer, ray, d);
@@ -231,6 +232,7 @@ Comparison compare(const Session& session, const CompareOptions& options) {
     MapSet maps(session, passes.map, fit.fitted, exact, options.cull);
     summary.zNear = fit.fitted.zNear;
     summary.zFar = fit.fitted.zFar;
+    summary.fitNote = fit.fitted.note;
     summary.fitMs = fit.ms;
     comparison.truths.push_back(summary);
     if (!options.outDir.empty())
