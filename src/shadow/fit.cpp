@@ -173,17 +173,26 @@ double nearestCasterDepth(const Scene& scene, const AxisFrame& frame, const glm:
                             [](const glm::dvec3& posL) { return posL.z; });
 }
 
-// The reach is a quotient of linear functions, W positive, so that a polygon has its greatest at a corner.
-double farthestCasterReach(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane,
+double farthestCasterDepth(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane,
                            double nearest) {
-  const double start = frame.linearDepth(nearest);
+  const auto mayExceed = [](const std::array<glm::dvec3, 3>& cornersL, double best) {
+    return -std::min({cornersL[0].z, cornersL[1].z, cornersL[2].z}) > best;
+  };
+  return greatestOfCasters(scene, frame, layerVolume(frame, clipFromPlane, nearest), nearest, mayExceed,
+                           [](const glm::dvec3& posL) { return -posL.z; });
+}
+
+// The reach is a quotient of linear functions, W positive, so that a polygon has its greatest at a corner.
+double casterReach(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane, double least,
+                   double from, Reach side) {
+  const double sign = side == Reach::Behind ? 1.0 : -1.0;
   const auto reach = [&](const glm::dvec3& posL) {
-    const glm::dvec3 h =
-        frame.perspective ? glm::dvec3(posL.x, posL.y, -posL.z) / -posL.z : glm::dvec3(posL.x, posL.y, 1.0);
-    return (frame.linearDepth(-posL.z) - start) / (clipFromPlane * h).z;
+    const glm::dvec3 h = frame.perspective ? glm::dvec3(posL.x / -posL.z, posL.y / -posL.z, 1.0)
+                                           : glm::dvec3(posL.x, posL.y, 1.0);
+    return sign * (frame.linearDepth(-posL.z) - frame.linearDepth(from)) / (clipFromPlane * h).z;
   };
   return greatestOfCasters(
-      scene, frame, layerVolume(frame, clipFromPlane, nearest), 0.0, [](const auto&, double) { return true; },
+      scene, frame, layerVolume(frame, clipFromPlane, least), 0.0, [](const auto&, double) { return true; },
       reach);
 }
 

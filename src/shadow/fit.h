@@ -67,9 +67,15 @@ WRange wRange(const glm::dmat3& clipFromPlane);
 double nearestCasterDepth(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane,
                           double least, double farthest);
 
-// The greatest (linearDepth - linearDepth(nearest)) / W of all triangles within the layer behind `nearest`;
-// 0 where there is none.
-double farthestCasterReach(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane,
+// Depth of the farthest triangle within the layer; `nearest` where there is none behind it.
+double farthestCasterDepth(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane,
                            double nearest);
+
+// How far the triangles within the layer, not nearer than `least`, reach from the depth `from` as a warped
+// layer stores it: the greatest |linearDepth - linearDepth(from)| / W of those behind it (Behind) or before
+// it.
+enum class Reach { Before, Behind };
+double casterReach(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane, double least,
+                   double from, Reach side);
 
 }  // namespace gnomon

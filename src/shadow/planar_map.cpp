@@ -20,28 +20,22 @@ constexpr double kLeastRange = 1e-6;
 // A receiver this share of the window's half beyond its edge may still round into the layer.
 constexpr double kEdgeSlack = 1e-3;
 
-// Depth stored is scale (linearDepth - linearDepth(zNear)) / W: 0 at zNear on every ray of the layer.
 struct LayerFit {
   glm::dmat3 clipFromPlane{1.0};
-  double zNear = 0.0;
-  double zFar = 1.0;  // of what the layer was fitted to
-  double scale = 1.0;
+  glm::dvec4 depthRow{0.0};  // of clipFromLight
+  double zNear = 0.0;        // metres, of what the layer was fitted to
+  double zFar = 1.0;
 };
 
-// Vulkan clip space from the light's frame. A row r of clipFromPlane is r.x x + r.y y + r.z (1 or -z), the
-// row of depth scale (-z - n) or, times the distance that the perspective divides by, scale (-z / n - 1).
+// Vulkan clip space from the light's frame. A row r of clipFromPlane is r.x x + r.y y + r.z (1 or -z).
+glm::dvec4 lightRow(const glm::dvec3& r, bool perspective) {
+  return perspective ? glm::dvec4(r.x, r.y, -r.z, 0.0) : glm::dvec4(r.x, r.y, 0.0, r.z);
+}
+
 glm::dmat4 clipFromLight(const LayerFit& layer, bool perspective) {
-  const glm::dmat3& p = layer.clipFromPlane;
-  glm::dmat4 m(0.0);
-  for (int column = 0; column < 2; ++column) m[column] = {p[column].x, p[column].y, 0.0, p[column].z};
-  if (perspective) {
-    m[2] = {-p[2].x, -p[2].y, -layer.scale / layer.zNear, -p[2].z};
-    m[3] = {0.0, 0.0, -layer.scale, 0.0};
-  } else {
-    m[2] = {0.0, 0.0, -layer.scale, 0.0};
-    m[3] = {p[2].x, p[2].y, -layer.scale * layer.zNear, p[2].z};
-  }
-  return m;
+  const glm::dmat3 rows = glm::transpose(layer.clipFromPlane);
+  return glm::transpose(glm::dmat4(lightRow(rows[0], perspective), lightRow(rows[1], perspective),
+                                   layer.depthRow, lightRow(rows[2], perspective)));
 }
 
 glsl::LightFrame toShared(const AxisFrame& frame) {
@@ -71,40 +65,61 @@ std::vector<Covered> coveredReceivers(const FitInput& input, const AxisFrame& fr
   return covered;
 }
 
+// Without a warp W is 1, and depth runs from 0 at zNear to 1 at zFar. With snapping the range is a step of a
+// series, as the texel's size is.
+void setDepthRow(LayerFit& layer, const AxisFrame& frame, double sceneScale, bool snap) {
+  // Of what the layer holds alone, so that the near end stays where it is while the layer does.
+  if (frame.perspective) layer.zNear *= 1.0 - kRangeSlack;
+  double range = layer.zFar - layer.zNear;
+  range = std::max(range * (1.0 + 2.0 * kRangeSlack), range + kLeastRange * sceneScale);
+  if (snap) range = snapLength(range);
+  if (!frame.perspective) layer.zNear -= kRangeSlack * range;
+  layer.zFar = layer.zNear + range;
+  layer.depthRow = frame.perspective ? glm::dvec4(0.0, 0.0, -layer.zFar, -layer.zFar * layer.zNear) / range
+                                     : glm::dvec4(0.0, 0.0, -1.0, -layer.zNear) / range;
+}
+
+// A warped sun's depth is (depth - zNear) / (reach W), anchored at the near end, where floats are finest:
+// what lies far from the camera, W large, has depths near 0 and keeps its digits. A warped spot's is 1 -
+// (1/depth - 1/zFar) / (reach W), anchored at the far end: anchored at the near end it would reach 1 only
+// beyond infinity where W is large.
+void setWarpedDepthRow(LayerFit& layer, const FitInput& input, const AxisFrame& frame, double sceneScale,
+                       std::span<const Covered> receivers, bool whole) {
+  const bool spot = frame.perspective;
+  if (spot)
+    layer.zFar *= 1.0 + kRangeSlack;
+  else
+    layer.zNear -= kRangeSlack * (layer.zFar - layer.zNear);
+  const double from = spot ? layer.zFar : layer.zNear;
+  double reach = 0.0;
+  if (spot || whole)
+    reach = casterReach(input.scene, frame, layer.clipFromPlane, layer.zNear, from,
+                        spot ? Reach::Before : Reach::Behind);
+  for (const Covered& receiver : receivers)
+    reach =
+        std::max(reach, std::abs(frame.linearDepth(receiver.depth) - frame.linearDepth(from)) / receiver.w);
+  reach = std::max(reach * (1.0 + kRangeSlack), kLeastRange * (spot ? 1.0 / layer.zFar : sceneScale));
+  layer.depthRow = spot ? lightRow(glm::transpose(layer.clipFromPlane)[2], true) -
+                              glm::dvec4(0.0, 0.0, 1.0 / layer.zFar, 1.0) / reach
+                        : glm::dvec4(0.0, 0.0, -1.0, -layer.zNear) / reach;
+}
+
 // From the nearest caster to the farthest receiver within the layer; but for a map that shall be whole (any
-// fit but focused), to the farthest caster. With snapping the range is a step of a series, as the texel's
-// size is.
+// fit but focused), to the farthest caster.
 LayerFit fitDepth(const FitInput& input, const AxisFrame& frame, const Bounds& bounds,
                   const glm::dmat3& clipFromPlane) {
   const double sceneScale = std::max(static_cast<double>(bounds.diagonal()), 1e-6);
   const double least = frame.perspective ? leastCasterDepth(bounds) : -4.0 * sceneScale;
   const std::vector<Covered> receivers = coveredReceivers(input, frame, clipFromPlane);
-  double farthest = frame.perspective ? least : -sceneScale;
-  for (const Covered& receiver : receivers) farthest = std::max(farthest, receiver.depth);
   const bool whole = input.options.fit != WindowFit::Focused || receivers.empty();
-  double nearest = nearestCasterDepth(input.scene, frame, clipFromPlane, least, whole ? 1e30 : farthest);
-  if (nearest >= 1e30) nearest = farthest;
-  if (frame.perspective) nearest *= 1.0 - kRangeSlack;
-
-  // W is 1 everywhere but in a warped layer, so that there a reach is a length, or an inverse length.
-  double reach = whole ? farthestCasterReach(input.scene, frame, clipFromPlane, nearest) : 0.0;
-  for (const Covered& receiver : receivers)
-    reach = std::max(reach, (frame.linearDepth(receiver.depth) - frame.linearDepth(nearest)) / receiver.w);
-  LayerFit layer{.clipFromPlane = clipFromPlane, .zNear = nearest};
-  if (input.options.warp != Warp::None) {
-    layer.zFar = std::max(farthest, nearest);
-    reach = std::max(reach, kLeastRange * (frame.perspective ? 1.0 / nearest : sceneScale));
-    if (!frame.perspective) layer.zNear -= kRangeSlack * reach * wRange(clipFromPlane).least;
-    layer.scale = 1.0 / (reach * (1.0 + 2.0 * kRangeSlack));
-    return layer;
-  }
-  const double end = frame.perspective ? 1.0 / (1.0 / nearest - reach) : nearest + reach;
-  double range =
-      std::max((end - nearest) * (1.0 + 2.0 * kRangeSlack), end - nearest + kLeastRange * sceneScale);
-  if (snaps(input.options)) range = snapLength(range);
-  if (!frame.perspective) layer.zNear -= kRangeSlack * range;
-  layer.zFar = layer.zNear + range;
-  layer.scale = 1.0 / (frame.linearDepth(layer.zFar) - frame.linearDepth(layer.zNear));
+  LayerFit layer{.clipFromPlane = clipFromPlane, .zFar = frame.perspective ? least : -4.0 * sceneScale};
+  for (const Covered& receiver : receivers) layer.zFar = std::max(layer.zFar, receiver.depth);
+  if (whole) layer.zFar = farthestCasterDepth(input.scene, frame, clipFromPlane, layer.zFar);
+  layer.zNear = nearestCasterDepth(input.scene, frame, clipFromPlane, least, layer.zFar);
+  if (input.options.warp == Warp::None)
+    setDepthRow(layer, frame, sceneScale, input.options.snap);
+  else
+    setWarpedDepthRow(layer, input, frame, sceneScale, receivers, whole);
   return layer;
 }
 

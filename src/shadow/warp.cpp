@@ -147,21 +147,22 @@ WarpedPlane warpAlongAxis(Warp warp, const WarpInput& input) {
     return {.note = fmt::format(
                 "{}: the nearer half of what is seen fills 80% of the map without a warp, no warp",
                 warpName(warp))};
-  std::string note;
-  // The square is a texel longer than the points.
-  const double least = 1.01 * extent.length() * (1.0 + 1.0 / input.side) / (kMostWarp - 1.0);
-  if (n < least) {
-    note = fmt::format("{}: weakened to a ratio of {:g}", warpName(warp), kMostWarp);
-    n = least;
-  }
+  // Where it is nearer W would vary by more over the points alone; the square is a texel longer, and so its
+  // bound is found by trying, in steps that lose at most 5%.
+  const double wanted = n;
+  n = std::max(n, extent.length() / (kMostWarp - 1.0));
   const glm::dvec2 s(axis.t.y, -axis.t.x);
-  glm::dmat3 rows(0.0);  // transposed below
-  rows[0] = {s.x, s.y, -glm::dot(s, axis.through)};
-  rows[1] = {0.0, 0.0, 1.0};
-  rows[2] = {axis.t.x, axis.t.y, n - extent.lower};
-  const auto filled = fillSquare(glm::transpose(rows), input.points, input.side);
-  if (!filled) return {.note = fmt::format("{}: nothing to warp, the view is too narrow", warpName(warp))};
-  return {.clipFromPlane = *filled, .warped = true, .note = std::move(note)};
+  for (; n < 1e3 * extent.length() + 2.0 * wanted; n *= 1.05) {
+    const glm::dmat3 rows = glm::transpose(glm::dmat3({s.x, s.y, -glm::dot(s, axis.through)}, {0.0, 0.0, 1.0},
+                                                      {axis.t.x, axis.t.y, n - extent.lower}));
+    const auto filled = fillSquare(rows, input.points, input.side);
+    if (!filled) continue;
+    return {.clipFromPlane = *filled,
+            .warped = true,
+            .note = n > wanted ? fmt::format("{}: weakened, W may vary {:g} times", warpName(warp), kMostWarp)
+                               : ""};
+  }
+  return {.note = fmt::format("{}: what is seen is too narrow to warp, no warp", warpName(warp))};
 }
 
 // The camera as PSM has it, moved back by `back` metres, with a view frustum about what the first one sees:
@@ -254,6 +255,9 @@ std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points) {
   };
   std::ranges::sort(
       points, [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  const auto repeated = std::ranges::unique(points);
+  points.erase(repeated.begin(), repeated.end());
+  if (points.size() < 3) return points;
   std::vector<glm::dvec2> hull;
   for (const int pass : {0, 1}) {
     const size_t start = hull.size();
@@ -262,7 +266,7 @@ std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points) {
         hull.pop_back();
       hull.push_back(point);
     }
-    if (hull.size() > 1) hull.pop_back();  // the next chain begins with it
+    hull.pop_back();  // the next chain begins with it
     if (pass == 0) std::ranges::reverse(points);
   }
   return hull;
