@@ -51,8 +51,10 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
   if (!fitted.note.empty()) std::fprintf(stderr, "gnomon: %s\n", fitted.note.c_str());
   if (show == "density") {
     const std::vector<float> densities = texelDensities(fitted, exact.receivers);
-    const std::string title = fmt::format("{}, {} x {} x {} texels", parameterization.name(),
-                                          fitted.map.layerCount, fitted.map.side, fitted.map.side);
+    const MapOptions& how = options.mapOptions;
+    const std::string title = fmt::format("{}, {} x {} x {} texels, fit {}, warp {}", parameterization.name(),
+                                          fitted.map.layerCount, fitted.map.side, fitted.map.side,
+                                          windowFitName(how.fit), warpName(how.warp));
     return {
         densityPicture(exact.receivers, densities, title), oneChannel(session, densities), {"texels_per_m2"}};
   }
