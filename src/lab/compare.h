@@ -41,7 +41,7 @@ struct Row {
   std::vector<std::string> knobUnits;
   std::string content;  // "one layer", "two layers", "back faces"
   std::string cull;
-  MapOptions mapOptions;  // as the map took them
+  MapOptions mapOptions;  // as asked for: a spot has one cascade all the same
   std::string epsilonAt;  // empty where the method has none
   std::string filter = "none";
   size_t scored = 0, agree = 0, acne = 0, leak = 0, edgeShadow = 0, edgeLight = 0, uncovered = 0;

@@ -255,8 +255,7 @@ std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points) {
   };
   std::ranges::sort(
       points, [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  const auto repeated = std::ranges::unique(points);
-  points.erase(repeated.begin(), repeated.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   std::vector<glm::dvec2> hull;
   for (const int pass : {0, 1}) {

@@ -43,6 +43,22 @@ TEST(Cascades, TheFirstThatCoversIsTakenAndTheyGrowCoarser) {
     EXPECT_GT(depth, 0.0f);
     EXPECT_LT(depth, 1.0f);
   }
+  // What lies before a split is in the layers that were fitted to it.
+  double nearest = 1e30, farthest = 0.0;
+  for (const glm::dvec3& receiver : seen.scored) {
+    nearest = std::min(nearest, viewDepth(seen.view, receiver));
+    farthest = std::max(farthest, viewDepth(seen.view, receiver));
+  }
+  const std::vector<double> splits = cascadeSplits(nearest, farthest, 3);
+  for (const glm::dvec3& receiver : seen.scored) {
+    const int layer =
+        glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(receiver))).layer;
+    for (int later = 1; later < 3; ++later) {
+      if (viewDepth(seen.view, receiver) < splits[static_cast<size_t>(later)]) {
+        ASSERT_LT(layer, later);
+      }
+    }
+  }
   for (const size_t count : counts) EXPECT_GT(count, seen.scored.size() / 100);
   // Texels of a floor: the windows alone decide.
   double before = 1e30;
@@ -107,6 +123,44 @@ TEST(PlanarFit, NoCasterOfAReceiverIsLostBeforeTheNearEnd) {
         }
         EXPECT_EQ(lost, 0u) << scene << " " << map->name() << ": " << test::describe(options);
         EXPECT_GT(met, seen.scored.size() / 2);
+      }
+    }
+  }
+}
+
+// Not only what it sees now: anything within the scene's bounds, the view and the cone would be in a tight
+// map, and anything within the bounds and the cone in a whole one.
+TEST(PlanarFit, TightHoldsWhateverTheCameraCouldSeeAndNoneWhateverTheLightCould) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  for (const char* scene : {"factory", "atrium", "contact", "grate"}) {
+    for (const Parameterization* map : planarParameterizations()) {
+      const SeenScene seen = test::see(scene, *map, 32);
+      const Bounds bounds = computeBounds(*seen.scene);
+      for (const int cascades : {1, map->layerCount({.cascades = 3})}) {
+        const FittedMap tight =
+            seen.fit(*map, {.fit = WindowFit::Tight, .snap = false, .cascades = cascades});
+        const FittedMap whole = seen.fit(*map, {.fit = WindowFit::None, .snap = false, .cascades = cascades});
+        size_t inView = 0, inCone = 0;
+        for (int i = 0; i < 4000; ++i) {
+          const glm::vec3 p =
+              glm::mix(bounds.lower, bounds.upper, glm::vec3(unit(random), unit(random), unit(random)));
+          const glm::dvec3 fromLight = glm::dvec3(p) - seen.light.positionW;
+          if (seen.light.type == LightType::Spot &&
+              glm::dot(glm::normalize(fromLight), seen.light.directionW) <
+                  std::cos(0.999 * seen.light.outerConeRad))
+            continue;
+          const glm::vec3 posL = glsl::lightFromWorld(whole.frame, p);
+          ++inCone;
+          ASSERT_TRUE(glsl::mapProject(whole.map, posL).covered) << scene << " " << map->name();
+          const glm::vec4 clip = seen.view.clipFromWorld * glm::vec4(p, 1.0f);
+          if (clip.w < clip.z || std::abs(clip.x) > 0.999f * clip.w || std::abs(clip.y) > 0.999f * clip.w)
+            continue;
+          ++inView;
+          ASSERT_TRUE(glsl::mapProject(tight.map, posL).covered) << scene << " " << map->name();
+        }
+        EXPECT_GT(inCone, 100u) << scene << " " << map->name();
+        EXPECT_GT(inView, 20u) << scene << " " << map->name();
       }
     }
   }
