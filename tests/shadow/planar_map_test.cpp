@@ -6,6 +6,7 @@
 #include "tests/run_kernel.h"
 
 #include <algorithm>
+#include <ostream>
 
 #include <glm/gtx/component_wise.hpp>
 
@@ -23,6 +24,10 @@ struct Kind {
   bool spot;
   Warp warp;
 };
+// ctest shows it beside the test's name.
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << kind.name;
+}
 constexpr Kind kKinds[] = {{"Spot", true, Warp::None},
                            {"SpotPsm", true, Warp::Psm},
                            {"SpotLispsm", true, Warp::Lispsm},
