@@ -71,8 +71,8 @@ double nearestAxial(const Scene& scene, const glm::dvec3& lightW, double least, 
   for (int face = 0; face < 6; ++face) {
     glm::dvec3 axisW(0.0);
     axisW[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
-    nearest = nearestCasterDepth(scene, axisFrame(lightW, axisW, true),
-                                 {.lower = glm::dvec2(-1.0), .upper = glm::dvec2(1.0)}, least, nearest);
+    const glm::dmat3 face90 = clipFromPlane({.lower = glm::dvec2(-1.0), .upper = glm::dvec2(1.0)});
+    nearest = nearestCasterDepth(scene, axisFrame(lightW, axisW, true), face90, least, nearest);
   }
   return nearest;
 }

@@ -26,7 +26,8 @@ GNOMON_FN MapPoint planarProject(ShadowMap map, vec3 posL) {
   return point;
 }
 
-// Unprojects depths 0 and 1. Where the light is a point, both ends lie on a line through it, and the rounding of the
+// Unprojects depths 0 and 1, which lie in front of the light on every ray of every warp (src/shadow/planar_map.cpp sees
+// to it). Where the light is a point, both ends lie on a line through it, and the rounding of the
 // far end's w only moves that end along the line, so the direction is good to a few ulps.
 GNOMON_FN Ray planarTexelRay(ShadowMap map, int layer, vec2 uv) {
   vec4 clip = vec4(uv.x * 2.0f - 1.0f, uv.y * 2.0f - 1.0f, 0.0f, 1.0f);

@@ -70,6 +70,29 @@ void addUserBiases(const MethodFlags& flags, CompareOptions& options) {
   if (flags.biasFiles.empty() && flags.biasFileKnob) throw UsageError("--bias-file-knob needs a --bias-file");
 }
 
+void addFitFlags(CLI::App& verb, MethodFlags& flags) {
+  verb.add_option(
+          "--fit", flags.fit,
+          "what spot and directional maps enclose. none: the whole cone or scene; tight: the camera's "
+          "frustum cut to the scene; focused: the surfaces the camera sees and the light faces")
+      ->capture_default_str();
+  verb.add_option("--snap", flags.snap,
+                  "on: texels of spot and directional maps keep their places in the world while the camera "
+                  "moves, for "
+                  "up to 9% of the resolution; off: the window itself. Warped maps cannot snap")
+      ->capture_default_str();
+  verb.add_option(
+          "--warp", flags.warp,
+          "shape the texels of spot and directional maps to the camera: none, psm (perspective shadow maps), "
+          "lispsm (light space perspective) or tsm (trapezoidal)")
+      ->capture_default_str();
+  verb.add_option(
+          "--cascades", flags.cascades,
+          fmt::format("layers of a directional map, 1..{}, split by the practical scheme; not with --warp",
+                      kMostCascades))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void setCommandLine(int argc, char** argv) {
@@ -162,6 +185,7 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
                   "exact: each texel's ray decides; vertex: edges are drawn straight, which they are not; "
                   "tessellated: the same with triangles split")
       ->capture_default_str();
+  addFitFlags(verb, flags);
   for (const BiasMethod& method : biasMethods())
     for (const BiasKnob& knob : method.knobs)
       verb.add_option_function<float>(
@@ -185,6 +209,11 @@ CompareOptions compareOptions(const MethodFlags& flags) {
       throw UsageError("--paraboloid-axis 0,0,0 has no direction; write x,y,z or auto");
     options.mapOptions.paraboloidAxisW = glm::normalize(glm::dvec3(axis));
   }
+  options.mapOptions.fit = parseWindowFit(flags.fit);
+  options.mapOptions.snap = parseSnap(flags.snap);
+  options.mapOptions.warp = parseWarp(flags.warp);
+  options.mapOptions.cascades = flags.cascades;
+  checkMapOptions(options.mapOptions);
   options.mapSide = flags.mapSize;
   options.mapTexels = flags.mapTexels;
   if (flags.mapTexels < 0)

@@ -35,10 +35,14 @@ struct MethodFlags {
   std::string cubeDepth = "hyperbolic";
   std::string paraboloidAxis = "auto";
   std::string paraboloidRaster = "exact";
+  std::string fit = "focused";
+  std::string snap = "on";
+  std::string warp = "none";
+  int cascades = 1;
   std::map<std::string, float> knobs;  // flag -> value
 };
-// --maps, --biases, --bias-file, --filters, --map-size, --map-texels, --cull, --epsilon-at, those of cube and
-// paraboloid maps, and a flag a knob.
+// --maps, --biases, --bias-file, --filters, --map-size, --map-texels, --cull, --epsilon-at, what concerns one
+// kind of map only, and a flag a knob.
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases);
 // Throws UsageError.
 CompareOptions compareOptions(const MethodFlags& flags);

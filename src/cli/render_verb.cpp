@@ -3,6 +3,7 @@
 #include "cli/verbs.h"
 #include "lab/pictures.h"
 #include "shadow/filtered_truth.h"
+#include "shadow/texel_density.h"
 
 #include <array>
 #include <cstdio>
@@ -22,8 +23,8 @@ struct RenderFlags {
   std::string show = "beauty";
 };
 
-constexpr std::array kShows = {"beauty", "visibility", "truth",        "difference",
-                               "labels", "depth",      "second-depth", "layer-gap"};
+constexpr std::array kShows = {"beauty", "visibility",   "truth",     "difference", "labels",
+                               "depth",  "second-depth", "layer-gap", "density"};
 
 struct Picture {
   Image8 png;
@@ -51,6 +52,16 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
   const Exact exact = computeExact(session, parameterization);
   const int side = mapSideOf(options, parameterization);
   const FittedMap fitted = fitMap(session, parameterization, exact, side, options.mapOptions).fitted;
+  if (!fitted.note.empty()) std::fprintf(stderr, "gnomon: %s\n", fitted.note.c_str());
+  if (show == "density") {
+    const std::vector<float> densities = texelDensities(fitted, exact.receivers);
+    const MapOptions& how = options.mapOptions;
+    const std::string title =
+        fmt::format("{}, {} x {} x {} texels, fit {}, warp {}", parameterization.name(),
+                    fitted.map.layerCount, side, side, windowFitName(how.fit), warpName(how.warp));
+    return {
+        densityPicture(exact.receivers, densities, title), oneChannel(session, densities), {"texels_per_m2"}};
+  }
   const bool layers = show == "second-depth" || show == "layer-gap";
   const DrawnMap map = drawMap(session, passes.map, fitted, exact,
                                layers ? MapContent::TwoLayers : method.bias->content, options.cull);
@@ -111,8 +122,8 @@ Run addRenderVerb(CLI::App& app) {
   verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")
       ->required();
   verb->add_option("--show", flags->show,
-                   "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth "
-                   "or layer-gap")
+                   "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
+                   "layer-gap or density (texels per square metre)")
       ->check(CLI::IsMember(std::vector<std::string>(kShows.begin(), kShows.end())))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };

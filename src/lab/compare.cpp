@@ -97,6 +97,7 @@ class MapComparison {
                            options_.mapOptions);
     summary.zNear = fit.fitted.zNear;
     summary.zFar = fit.fitted.zFar;
+    summary.fitNote = fit.fitted.note;
     summary.fitMs = fit.ms;
     maps_ = std::make_unique<MapSet>(session_, passes_.map, fit.fitted, exact_, options_.cull);
     for (const Filter* filter : options_.filters) filteredTruth(*filter);
@@ -161,6 +162,7 @@ class MapComparison {
       row.mapSide = map.fitted.map.side;
       row.layers = map.fitted.map.layerCount;
       row.cull = cullModeName(options_.cull);
+      row.mapOptions = options_.mapOptions;
       row.filter = filter->name;
       describe(row, entry, judged);
       row.rmse = rmseOf(exact_, visibility, truth.visibility);

@@ -74,6 +74,7 @@ struct Row {
   std::vector<std::string> knobUnits;
   std::string content;  // "one layer", "two layers", "back faces"
   std::string cull;
+  MapOptions mapOptions;  // as asked for: a spot has one cascade all the same
   std::string epsilonAt;  // empty where the method has none
   std::string filter = "none";
   size_t scored = 0, agree = 0, acne = 0, leak = 0, edgeShadow = 0, edgeLight = 0, uncovered = 0;
@@ -99,6 +100,7 @@ struct TruthSummary {
   size_t marginFlipsHalf = 0, marginFlipsDouble = 0;
   double margin = 0.0;              // metres
   float zNear = 0.0f, zFar = 0.0f;  // of the fitted map, metres
+  std::string fitNote;              // FittedMap::note
   double receiversAndTraceMs = 0.0, fitMs = 0.0;
 };
 

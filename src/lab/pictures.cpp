@@ -1,6 +1,9 @@
 #include "lab/pictures.h"
 
+#include "shadow/texel_density.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -99,7 +102,76 @@ int layOutLegend(Image8* canvas, int width, int top, int scale, const std::strin
   return y + line - top;
 }
 
+// Nunez, Anderton, Renslow, "Optimizing colormaps with consideration for color vision deficiency" (2018):
+// cividis at equal steps; its lightness rises evenly.
+glm::u8vec3 rampColor(double t) {
+  static constexpr std::array<glm::u8vec3, 9> kRamp = {
+      glm::u8vec3(0, 32, 76),     glm::u8vec3(0, 48, 111),    glm::u8vec3(57, 72, 108),
+      glm::u8vec3(87, 93, 109),   glm::u8vec3(112, 113, 115), glm::u8vec3(138, 134, 120),
+      glm::u8vec3(166, 157, 117), glm::u8vec3(208, 190, 100), glm::u8vec3(255, 233, 69)};
+  const double at = std::clamp(t, 0.0, 1.0) * (kRamp.size() - 1);
+  const size_t i = std::min(static_cast<size_t>(at), kRamp.size() - 2);
+  return glm::u8vec3(glm::mix(glm::dvec3(kRamp[i]), glm::dvec3(kRamp[i + 1]), at - static_cast<double>(i)) +
+                     0.5);
+}
+
+// Whole decades that hold the positive densities, but for the hundredth at either end: texels all but edge-on
+// to the light are not worth the ramp's range.
+struct Decades {
+  int lower = 0;
+  int upper = 1;
+};
+
+Decades decadesOf(std::span<const float> densities) {
+  std::vector<float> positive;
+  std::ranges::copy_if(densities, std::back_inserter(positive), [](float d) { return d > 0.0f; });
+  if (positive.empty()) return {};
+  std::ranges::sort(positive);
+  const size_t hundredth = positive.size() / 100;
+  const int lower = static_cast<int>(std::floor(std::log10(positive[hundredth])));
+  const int upper = static_cast<int>(std::ceil(std::log10(positive[positive.size() - 1 - hundredth])));
+  return {.lower = lower, .upper = std::max(upper, lower + 1)};
+}
+
+void drawRamp(Image8& image, int top, int scale, const Decades& decades) {
+  const int left = 4 * scale;
+  const int right = image.width - 40 * scale;
+  for (int x = left; x < right; ++x)
+    fillRectangle(image, x, top, x + 1, top + 8 * scale,
+                  rampColor(static_cast<double>(x - left) / (right - left)));
+  for (int decade = decades.lower; decade <= decades.upper; ++decade) {
+    const int x = left + (right - left - 1) * (decade - decades.lower) / (decades.upper - decades.lower);
+    fillRectangle(image, x, top, x + scale, top + 11 * scale, kText);
+    drawText(image, x, top + 13 * scale, scale, fmt::format("1e{}", decade), kText);
+  }
+}
+
 }  // namespace
+
+Image8 densityPicture(const Receivers& receivers, std::span<const float> densities,
+                      const std::string& title) {
+  const int scale = std::max(1, receivers.width / 500);
+  const Decades decades = decadesOf(densities);
+  Image8 image(receivers.width, receivers.height + 50 * scale, 3);
+  for (int y = 0; y < receivers.height; ++y) {
+    for (int x = 0; x < receivers.width; ++x) {
+      const size_t i = static_cast<size_t>(y) * receivers.width + x;
+      glm::u8vec3 color = receivers.states[i] == PixelState::Empty ? kNothing : kDark;
+      if (receivers.states[i] == PixelState::Scored) {
+        const double decade = std::log10(std::max(static_cast<double>(densities[i]), 1e-30));
+        color = densities[i] < 0.0f ? labelColor(Label::Uncovered)
+                                    : rampColor((decade - decades.lower) / (decades.upper - decades.lower));
+      }
+      setPixel(image, x, y, color);
+    }
+  }
+  fillRectangle(image, 0, receivers.height, image.width, image.height, kNothing);
+  drawText(image, 4 * scale, receivers.height + 4 * scale, scale, title, kText);
+  drawText(image, 4 * scale, receivers.height + 14 * scale, scale,
+           fmt::format("texels per square metre; median {:.4g}", medianDensity(densities)), kText);
+  drawRamp(image, receivers.height + 26 * scale, scale, decades);
+  return image;
+}
 
 void drawText(Image8& image, int x, int y, int scale, const std::string& text, const glm::u8vec3& color) {
   struct Vertex {

@@ -54,6 +54,7 @@ Json toJson(const TruthSummary& truth) {
   json["margin_flips_double"] = truth.marginFlipsDouble;
   json["z_near"] = shortest(truth.zNear);
   json["z_far"] = shortest(truth.zFar);
+  json["fit_note"] = truth.fitNote;
   json["trace_ms"] = truth.receiversAndTraceMs;
   json["fit_ms"] = truth.fitMs;
   return json;
@@ -107,6 +108,10 @@ Json toJson(const Row& row, double gbufferMs) {
   if (!row.epsilonAt.empty()) params["epsilon_at"] = row.epsilonAt;
   params["map_content"] = row.content;
   params["cull"] = row.cull;
+  params["fit"] = windowFitName(row.mapOptions.fit);
+  params["snap"] = snaps(row.mapOptions) ? "on" : "off";
+  params["warp"] = warpName(row.mapOptions.warp);
+  params["cascades"] = row.mapOptions.cascades;
   Json json;
   json["map"] = row.map;
   json["map_size"] = row.mapSide;

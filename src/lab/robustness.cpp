@@ -57,7 +57,7 @@ struct Robustness::Place {
   std::unique_ptr<Trial> trial;
 
   Place(const Session& s, Exact e, const CompareOptions& options, const Parameterization& parameterization,
-        int side, std::string name)
+        int side)
       : session(s), passes(s.device(), s.view()), exact(std::move(e)) {
     const Fit fit = fitMap(s, parameterization, exact, side, options.mapOptions);
     maps = std::make_unique<MapSet>(s, passes.map, fit.fitted, exact, options.cull);

@@ -13,6 +13,7 @@ namespace {
 // In the order of the enumerations.
 constexpr std::array<const char*, 3> kWindowFitNames = {"none", "tight", "focused"};
 constexpr std::array<const char*, 4> kWarpNames = {"none", "psm", "lispsm", "tsm"};
+constexpr std::array<const char*, 2> kSnapNames = {"off", "on"};
 constexpr std::array<const char*, 2> kCubeDepthNames = {"hyperbolic", "radial"};
 constexpr std::array<const char*, 3> kParaboloidRasterNames = {"vertex", "tessellated", "exact"};
 
@@ -27,11 +28,26 @@ size_t parseName(const char* flag, const std::string& name, std::span<const char
 
 }  // namespace
 
+void checkMapOptions(const MapOptions& options) {
+  if (options.cascades < 1 || options.cascades > kMostCascades)
+    throw UsageError(fmt::format("--cascades {}: is outside 1..{}", options.cascades, kMostCascades));
+  if (options.cascades > 1 && options.warp != Warp::None)
+    throw UsageError(fmt::format("--cascades {} with --warp {}: choose one of them; cascades are not warped",
+                                 options.cascades, warpName(options.warp)));
+}
+
+bool snaps(const MapOptions& options) {
+  return options.snap && options.warp == Warp::None;
+}
+
 WindowFit parseWindowFit(const std::string& name) {
   return static_cast<WindowFit>(parseName("--fit", name, kWindowFitNames));
 }
 Warp parseWarp(const std::string& name) {
   return static_cast<Warp>(parseName("--warp", name, kWarpNames));
+}
+bool parseSnap(const std::string& name) {
+  return parseName("--snap", name, kSnapNames) == 1;
 }
 CubeDepth parseCubeDepth(const std::string& name) {
   return static_cast<CubeDepth>(parseName("--cube-depth", name, kCubeDepthNames));

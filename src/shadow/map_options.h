@@ -38,9 +38,11 @@ enum class ParaboloidRaster {
   Exact,        // each texel's ray meets the triangle or does not
 };
 
+inline constexpr int kMostCascades = 4;
+
 struct MapOptions {
   WindowFit fit = WindowFit::Focused;
-  bool snap = true;  // texels keep their places in the world while the camera moves
+  bool snap = true;  // texels keep their places in the world while the camera moves; warped ones cannot
   Warp warp = Warp::None;
   int cascades = 1;  // directional maps: layers, finest first
   CubeDepth cubeDepth = CubeDepth::Hyperbolic;
@@ -49,10 +51,18 @@ struct MapOptions {
       paraboloidAxisW;  // unit; absent: the seam is turned away from what the camera sees
 };
 
+// Throws UsageError that names the flags: --cascades outside 1..kMostCascades, or together with --warp, which
+// would shape every cascade to the whole view.
+void checkMapOptions(const MapOptions& options);
+
+// Whether a planar map of these options snaps.
+bool snaps(const MapOptions& options);
+
 // By their names on the command line. Each throws UsageError that names the flag and lists the choices.
 WindowFit parseWindowFit(const std::string& name);                // none, tight, focused
 Warp parseWarp(const std::string& name);                          // none, psm, lispsm, tsm
 CubeDepth parseCubeDepth(const std::string& name);                // hyperbolic, radial
+bool parseSnap(const std::string& name);                          // on, off
 ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, tessellated, exact
 const char* windowFitName(WindowFit fit);
 const char* warpName(Warp warp);

@@ -28,6 +28,8 @@ struct FittedMap {
   float zFar = 0.0f;
   bool positional = true;  // the light is a point, and L's origin is there
   LayerShaders shaders;
+  // What a report should say of the fit: why a warp was weakened or not applied. Empty: nothing.
+  std::string note = {};
 };
 
 // What a map may be fitted to.

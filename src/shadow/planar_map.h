@@ -2,10 +2,11 @@
 // Spot and directional maps: a window in a plane across the light's axis, one matrix.
 //
 // Both are fitted the same way. In the light's frame a point has plane coordinates, (x, y)/-z for a spot and
-// (x, y) for a directional light, and a depth -z. The window is the bounds of what the camera sees of the
-// scored receivers (sample distribution, Lauritzen et al. 2011), its texels snapped to a grid that is fixed
-// in the world, and the near end is tightened to the nearest caster within the window, the far end to the
-// farthest receiver.
+// (x, y) for a directional light, and a depth -z. What is to be covered there (MapOptions::fit; by default
+// the bounds of what the camera sees of the scored receivers: sample distribution, Lauritzen et al. 2011)
+// gives a window, whose texels snap to a grid that is fixed in the world, or the square of a warp; a
+// directional map may have several (cascades). The near end is tightened to the nearest caster within the
+// layer, the far end to the farthest receiver, or caster where the map is to be whole.
 
 #include "shadow/parameterization.h"
 

@@ -139,6 +139,11 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("compare contact --camera eye:1,2", 2, "--camera");
   expectMistake("compare contact --cone 300", 2, "--cone 300");
   expectMistake("compare contact --cull all", 2, "--cull all");
+  expectMistake("compare contact --fit wide", 2, "--fit wide: no such choice");
+  expectMistake("compare contact --snap yes", 2, "--snap yes: no such choice");
+  expectMistake("compare contact --warp fish", 2, "--warp fish: no such choice");
+  expectMistake("compare contact --cascades 5", 2, "--cascades 5: is outside 1..4");
+  expectMistake("compare contact --cascades 2 --warp tsm", 2, "--cascades 2 with --warp tsm");
   expectMistake("compare contact --repeats 0", 2, "--repeats");
   expectMistake("compare contact --no-such-flag", 2, "--no-such-flag");
   expectMistake("render contact -o @/a.jpg", 2, "write a .png or an .exr");
@@ -164,7 +169,7 @@ TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
 }
 
 TEST_F(CliTest, RenderDrawsEveryKindOfPicture) {
-  for (const char* show : {"beauty", "visibility", "truth", "labels", "depth"}) {
+  for (const char* show : {"beauty", "visibility", "truth", "labels", "depth", "density"}) {
     const std::string name = std::string("@/") + show;
     EXPECT_EQ(
         run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".png")
@@ -177,7 +182,7 @@ TEST_F(CliTest, RenderDrawsEveryKindOfPicture) {
         0)
         << show;
   }
-  EXPECT_EQ(fileCount(), 10u);
+  EXPECT_EQ(fileCount(), 12u);
 }
 
 // A generated scene, written and loaded again, is the same scene: the same counts for every bias.

@@ -56,7 +56,7 @@ TEST(NearestCasterDepth, IsTheNearestPointOfAnyTriangleInTheWindow) {
     const glm::dvec3 eye =
         glm::dvec3(bounds.center()) + glm::dvec3(0.6, 1.0, 0.4) * static_cast<double>(bounds.diagonal());
     const AxisFrame frame = axisFrame(eye, glm::dvec3(bounds.center()) - eye, perspective);
-    const double depth = nearestCasterDepth(scene, frame, window, 1e-3, 1e9);
+    const double depth = nearestCasterDepth(scene, frame, clipFromPlane(window), 1e-3, 1e9);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     double nearest = 1e9;
@@ -94,7 +94,8 @@ TEST(NearestCasterDepth, ATriangleThatSurroundsTheLightIsCutAtTheLeastDepth) {
   // The light looks along -z from the origin; the triangle passes 0.1 above it and fills the upper half of
   // the view.
   const AxisFrame frame = axisFrame({0, 0, 0}, {0, 0, -1}, true);
-  const double depth = nearestCasterDepth(scene, frame, {.lower = {-1, -1}, .upper = {1, 1}}, 1e-4, 100.0);
+  const double depth =
+      nearestCasterDepth(scene, frame, clipFromPlane({.lower = {-1, -1}, .upper = {1, 1}}), 1e-4, 100.0);
   EXPECT_NEAR(depth, 0.1, 1e-6);  // where y / depth = 1
 }
 
