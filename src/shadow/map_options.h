@@ -34,8 +34,7 @@ enum class CubeDepth {
 // How the triangles of a dual paraboloid are rasterized.
 enum class ParaboloidRaster {
   Vertex,  // corners are projected, edges are drawn straight: wrong for large triangles (Brabec et al. 2002)
-  Tessellated,  // the same, with triangles split until their edges are straight to half a texel
-  Exact,        // each texel's ray meets the triangle or does not
+  Exact,   // each texel's ray meets the triangle or does not
 };
 
 struct MapOptions {
@@ -53,7 +52,7 @@ struct MapOptions {
 WindowFit parseWindowFit(const std::string& name);                // none, tight, focused
 Warp parseWarp(const std::string& name);                          // none, psm, lispsm, tsm
 CubeDepth parseCubeDepth(const std::string& name);                // hyperbolic, radial
-ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, tessellated, exact
+ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, exact
 const char* windowFitName(WindowFit fit);
 const char* warpName(Warp warp);
 const char* cubeDepthName(CubeDepth depth);
