@@ -39,9 +39,9 @@ LayerShaders shadersFor(ParaboloidRaster raster) {
   shaders.projective = false;
   if (raster == ParaboloidRaster::Exact) {
     constexpr const char* kFragment = "shadow/draw_bounded_triangle.frag.glsl";
-    shaders.vertex = "omni/bound_in_paraboloid.vert.glsl";
+    shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
     shaders.depth = shaders.depthMasked = shaders.secondDepth = shaders.peel = kFragment;
-    shaders.drawnAs = DrawnAs::Bounds;
+    shaders.bounds = "omni/bound_in_paraboloid.comp.glsl";
   } else {
     shaders.vertex = "omni/project_to_paraboloid.vert.glsl";
     shaders.mirroredLayers = 0b10;

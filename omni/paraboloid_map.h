@@ -3,9 +3,9 @@
 // Its mathematics is shaders/shared/paraboloid_map.glsl; the frame's -z is the axis of layer 0, and the seam
 // is the great circle across it.
 //
-// Three ways to rasterize (MapOptions::paraboloidRaster). Straight edges become arcs: `vertex` draws them
-// straight between the corners and is wrong for large triangles, `tessellated` first splits them, and `exact`
-// draws a bound of every triangle and lets each texel's own ray decide.
+// Two ways to rasterize (MapOptions::paraboloidRaster). Straight edges become arcs: `vertex` draws them
+// straight between the corners and is wrong for large triangles, `exact` draws a bound of every triangle and
+// lets each texel's own ray decide.
 
 #include "shadow/parameterization.h"
 

@@ -23,10 +23,12 @@ layout(location = 0) out float secondDepth;
 
 void main() {
   if (kMasked == 1 && isHole(materials[instances[instanceIndex].material], uv)) discard;
-  vec2 mapUv = mapTexelCenter(shadowMap, ivec2(gl_FragCoord.xy));
+  ShadowMap map = shadowMap;
+  map.kind = kMapCubeRadial;
+  vec2 mapUv = mapTexelCenter(map, ivec2(gl_FragCoord.xy));
   float m = 1.0f / gl_FragCoord.w;
-  vec3 posL = cubeLightFromFace(layer, vec3(mapUv.x * 2.0f - 1.0f, mapUv.y * 2.0f - 1.0f, 1.0f)) * m;
-  float depth = mapDepth(shadowMap, layer, posL);
+  // In the face's coordinates: a distance is the same in all of them.
+  float depth = cubeDepth(map, layer, vec3(mapUv.x * 2.0f - 1.0f, mapUv.y * 2.0f - 1.0f, 1.0f) * m);
   // As a near plane would: what is nearer than the near end is not in the map.
   if (depth < 0.0f) discard;
   if (kPass == 2 && depth <= texelFetch(mapDepthLayers, ivec3(ivec2(gl_FragCoord.xy), layer), 0).x + tolerance) discard;

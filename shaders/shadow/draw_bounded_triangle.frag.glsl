@@ -1,11 +1,11 @@
 // The non-linear rasterizer: the ray through a texel's centre meets the triangle or does not. It knows the parameterization by mapTexelRay,
-// mapHoldsTexel and mapDepth only; some vertex shader has drawn a bound of the triangle's projection.
+// mapHoldsTexel and mapDepth only; some compute shader has found a bound of the triangle's projection.
 // kPass: 0 the first layer, 1 and 2 the second one, by blending and by peeling (src/shadow/map_image.h).
 #include "shared/ray_triangle.glsl"
 #include "shared/shade.glsl"
 
 #include "scene/alpha_mask.glsl"
-#include "shadow/bounded_triangle.glsl"
+#include "shadow/bounded_varyings.glsl"
 
 layout(scalar, binding = kBindTriangles) readonly buffer Triangles { uvec3 triangles[]; };
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
@@ -34,19 +34,17 @@ void main() {
   ShadowMap map = shadowMap;
   map.kind = kMapKind;
   LightTriangle triangle;
-  triangle.a = cornerA;
-  triangle.b = cornerB;
-  triangle.c = cornerC;
   triangle.sideA = sideA;
   triangle.sideB = sideB;
   triangle.sideC = sideC;
   ivec2 texel = ivec2(gl_FragCoord.xy);
   Ray ray = mapTexelRay(map, layer, mapTexelCenter(map, texel));
   vec3 distances = sideDistances(triangle, ray.dir);
-  if (!isWithin(distances) || !mapHoldsTexel(map, layer, texel)) discard;
-  float depth = mapDepth(map, layer, ray.dir * distanceAlong(triangle, ray.dir, distances));
+  if (!isWithin(distances)) discard;
+  float along = 1.0f / dot(inverseNormal, ray.dir);
+  float depth = mapDepth(map, layer, ray.dir * along);
   // As a near plane would: what is nearer than the near end is not in the map.
-  if (!(depth >= 0.0f)) discard;
+  if (!(depth >= 0.0f) || !mapHoldsTexel(map, layer, texel)) discard;
   if (kMasked == 1 && isHoleAt(distances)) discard;
   if (kPass == 2 && depth <= texelFetch(mapDepthLayers, ivec3(texel, layer), 0).x + tolerance) discard;
   gl_FragDepth = depth;

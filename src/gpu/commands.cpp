@@ -274,6 +274,12 @@ void Commands::draw(uint32_t vertexCount, uint32_t instanceCount, uint32_t first
   vkCmdDraw(commands_, vertexCount, instanceCount, firstVertex, firstInstance);
 }
 
+void Commands::drawIndirect(const Buffer& arguments) {
+  GNOMON_CHECK(inRendering_);
+  GNOMON_CHECK_LE(sizeof(VkDrawIndirectCommand), arguments.size());
+  vkCmdDrawIndirect(commands_, arguments.handle(), 0, 1, sizeof(VkDrawIndirectCommand));
+}
+
 void Commands::endRendering() {
   GNOMON_CHECK(inRendering_);
   vkCmdEndRendering(commands_);

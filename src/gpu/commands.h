@@ -77,6 +77,8 @@ class Commands {
   void drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex, int32_t vertexOffset,
                    uint32_t firstInstance);
   void draw(uint32_t vertexCount, uint32_t instanceCount, uint32_t firstVertex, uint32_t firstInstance);
+  // `arguments`: one VkDrawIndirectCommand; its usage has VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT.
+  void drawIndirect(const Buffer& arguments);
   void endRendering();
 
   void fill(const Buffer& buffer, uint32_t word);

@@ -12,15 +12,6 @@
 
 namespace gnomon {
 
-enum class DrawnAs {
-  // Indexed triangles: the vertex shader projects corners, the rasterizer culls by winding.
-  Corners,
-  // Six vertices a triangle (number gl_VertexIndex / 6) without an index buffer: two triangles that enclose
-  // the
-  // projection, or nothing. The shaders cull by LayerPush::facing.
-  Bounds,
-};
-
 struct LayerShaders {
   const char* vertex = "shadow/project_to_layer.vert.glsl";
   // Fragment shaders. The first layer's may be empty for opaque meshes: the rasterizer's own depth. The
@@ -29,7 +20,11 @@ struct LayerShaders {
   const char* depthMasked = "shadow/draw_depth_masked.frag.glsl";
   const char* secondDepth = "shadow/draw_second_depth.frag.glsl";
   const char* peel = "shadow/peel_second_depth.frag.glsl";
-  DrawnAs drawnAs = DrawnAs::Corners;
+  // Empty: indexed triangles, whose corners the vertex shader projects and which the rasterizer culls by
+  // winding. Else a compute shader that writes the triangles a layer shows, each with four corners around its
+  // projection (shared/bounded_triangle.glsl): these are drawn by shadow/pull_bounded_triangle.vert.glsl, and
+  // the fragment shaders decide each texel.
+  const char* bounds = "";
   // One bit a layer that mirrors: there, what winds counter-clockwise seen from the light is clockwise on the
   // layer.
   uint32_t mirroredLayers = 0;
@@ -39,14 +34,12 @@ struct LayerShaders {
   bool operator==(const LayerShaders&) const = default;
 };
 
-// Push constants, in this order.
+// Push constants of the vertex and fragment shaders, in this order.
 struct LayerPush {
   int32_t layer = 0;
   // Of depth: what lies no further behind the first layer is not the second. The same triangle gets the same
   // depth in every pass, so none is needed.
   float tolerance = 0.0f;
-  // Bounds only: 1 draws triangles that wind counter-clockwise seen from the light, -1 the others, 0 both.
-  int32_t facing = 0;
 };
 
 }  // namespace gnomon

@@ -51,7 +51,7 @@ bool mayFallOn(const FittedMap& fitted, int layer, const Bounds& boundsW) {
 
 // What a program reads of the scene and the map.
 std::vector<gpu::Binding> bindingsOf(const gpu::GraphicsProgram& program, const SceneBuffers& scene,
-                                     const MapImage& map) {
+                                     const MapImage& map, const BoundedDraws& bounded) {
   std::vector<gpu::Binding> bindings;
   for (const gpu::ProgramInterface::Binding& wanted : program.interface().bindings) {
     switch (wanted.index) {
@@ -81,6 +81,9 @@ std::vector<gpu::Binding> bindingsOf(const gpu::GraphicsProgram& program, const 
         break;
       case glsl::kBindMapDepth:
         bindings.emplace_back(wanted.index, map.depth());
+        break;
+      case glsl::kBindBoundedTriangles:
+        bindings.emplace_back(wanted.index, bounded.triangles());
         break;
       default:
         break;  // bind() says what is missing
@@ -117,7 +120,7 @@ MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, MapConten
                                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, side, layers));
 }
 
-MapRenderer::MapRenderer(const gpu::Device& device) : device_(device) {}
+MapRenderer::MapRenderer(const gpu::Device& device) : device_(device), bounded_(device) {}
 
 const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
   for (const auto& entry : programs_)
@@ -146,49 +149,82 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
   return programs_.back()->program;
 }
 
-void MapRenderer::recordLayer(gpu::Commands& commands, const SceneBuffers& scene, const MapImage& map,
-                              const LightModel& light, CullMode cull, Pass pass, int layer) const {
-  const LayerShaders& shaders = map.fitted_.shaders;
-  const bool backFaces = map.content() == MapContent::BackFaces;
-  const auto culled = [&](const Draw& draw) {
-    return (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
-  };
-  const auto inReach = [&](const Draw& draw) {
-    return !shaders.projective || mayFallOn(map.fitted_, layer, draw.boundsW);
-  };
-  const bool mirrors = (shaders.mirroredLayers >> layer & 1u) != 0;
+void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
+                                const Grouping& groupOf) const {
+  const LayerShaders& shaders = layer.map.fitted_.shaders;
+  const bool backFaces = layer.map.content() == MapContent::BackFaces;
+  const bool mirrors = (shaders.mirroredLayers >> layer.index & 1u) != 0;
+  const LayerPush push{.layer = layer.index};
+  commands.beginRendering(layer.targets);
   for (const bool masked : {false, true}) {
-    if (masked && (scene.draws.empty() || !scene.draws.back().masked)) continue;
-    const gpu::GraphicsProgram& drawn = program({shaders, pass, masked, map.kind()});
-    // Sheets, solids, and solids that are mirrored in the world.
-    for (const int group : {0, 1, 2}) {
+    for (const Group group : {Group::Sheets, Group::Solids, Group::MirroredSolids}) {
       const auto wanted = [&](const Draw& d) {
-        return d.masked == masked && (culled(d) ? (d.mirrored ? 2 : 1) : 0) == group;
+        return d.masked == masked && groupOf(d) == group &&
+               (!shaders.projective || mayFallOn(layer.map.fitted_, layer.index, d.boundsW));
       };
       if (std::ranges::none_of(scene.draws, wanted)) continue;
-      LayerPush push{.layer = layer};
-      if (group > 0) push.facing = (group == 2) == backFaces ? 1 : -1;
+      const gpu::GraphicsProgram& drawn = program({shaders, layer.pass, masked, layer.map.kind()});
       commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
-                    bindingsOf(drawn, scene, map));
-      if (shaders.drawnAs == DrawnAs::Bounds) {
-        commands.setCulling(VK_CULL_MODE_NONE, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        for (const Draw& d : scene.draws)
-          if (wanted(d)) commands.draw(2 * d.indexCount, 1, 2 * d.firstIndex, d.instance);
-        continue;
-      }
-      const bool clockwise = (group == 2) != mirrors;
-      commands.setCulling(group == 0  ? VK_CULL_MODE_NONE
-                          : backFaces ? VK_CULL_MODE_FRONT_BIT
-                                      : VK_CULL_MODE_BACK_BIT,
+                    bindingsOf(drawn, scene, layer.map, bounded_));
+      const bool clockwise = (group == Group::MirroredSolids) != mirrors;
+      commands.setCulling(group == Group::Sheets ? VK_CULL_MODE_NONE
+                          : backFaces            ? VK_CULL_MODE_FRONT_BIT
+                                                 : VK_CULL_MODE_BACK_BIT,
                           clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
       commands.bindIndexBuffer(scene.triangles);
-      recordDraws(commands, scene, [&](const Draw& d) { return wanted(d) && inReach(d); });
+      recordDraws(commands, scene, wanted);
     }
   }
+  commands.endRendering();
+}
+
+void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
+                               const Grouping& groupOf) const {
+  const LayerShaders& shaders = layer.map.fitted_.shaders;
+  const bool backFaces = layer.map.content() == MapContent::BackFaces;
+  const LayerPush push{.layer = layer.index};
+  gpu::RenderTargets targets = layer.targets;
+  bool cleared = false;
+  for (const bool masked : {false, true}) {
+    std::vector<BoundedDraws::Piece> pieces;
+    for (const Draw& d : scene.draws) {
+      if (d.masked != masked) continue;
+      const Group group = groupOf(d);
+      const int front = group == Group::Sheets ? 0 : group == Group::Solids ? 1 : -1;
+      pieces.push_back({d.firstIndex / 3, d.indexCount / 3, d.instance, backFaces ? -front : front});
+    }
+    for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
+      bounded_.record(commands, scene, layer.map.uniforms(), shaders.bounds, layer.index, batch);
+      commands.beginRendering(targets);
+      const gpu::GraphicsProgram& drawn = program({shaders, layer.pass, masked, layer.map.kind()});
+      commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
+                    bindingsOf(drawn, scene, layer.map, bounded_));
+      commands.drawIndirect(bounded_.arguments());
+      commands.endRendering();
+      cleared = true;
+      targets.clearDepth.reset();
+      for (gpu::ColorTarget& color : targets.colors) color.clear.reset();
+      commands.barrier("triangles of this batch are drawn -> the next batch takes their place");
+    }
+  }
+  if (cleared) return;
+  commands.beginRendering(targets);
+  commands.endRendering();
 }
 
 void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
                          const LightModel& light, CullMode cull, SecondLayer method) const {
+  const bool backFaces = map.content() == MapContent::BackFaces;
+  const Grouping groupOf = [&](const Draw& draw) {
+    const bool culled = (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
+    return !culled ? Group::Sheets : draw.mirrored ? Group::MirroredSolids : Group::Solids;
+  };
+  const auto recordLayer = [&](const Layer& layer) {
+    if (*map.fitted_.shaders.bounds == '\0')
+      recordCorners(commands, scene, layer, groupOf);
+    else
+      recordBounds(commands, scene, layer, groupOf);
+  };
   const bool peels = method == SecondLayer::Peel && map.content() == MapContent::TwoLayers;
   if (peels && map.peelDepth_.handle() == VK_NULL_HANDLE)
     map.peelDepth_ = gpu::Image(
@@ -196,9 +232,7 @@ void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, Map
                             map.depth().desc().width, static_cast<uint32_t>(map.layerCount())));
   for (int layer = 0; layer < map.layerCount(); ++layer) {
     const auto target = static_cast<uint32_t>(layer);
-    commands.beginRendering({.depth = &map.depth(), .clearDepth = 1.0f, .layer = target});
-    recordLayer(commands, scene, map, light, cull, Pass::First, layer);
-    commands.endRendering();
+    recordLayer({map, layer, Pass::First, {.depth = &map.depth(), .clearDepth = 1.0f, .layer = target}});
     if (map.content() != MapContent::TwoLayers) continue;
     commands.barrier("the first layer's depth is written -> the second layer tests against it");
     gpu::RenderTargets second{
@@ -206,9 +240,7 @@ void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, Map
         .depth = peels ? &map.peelDepth_ : &map.depth(),
         .layer = target};
     if (peels) second.clearDepth = 1.0f;
-    commands.beginRendering(second);
-    recordLayer(commands, scene, map, light, cull, peels ? Pass::Peel : Pass::Blend, layer);
-    commands.endRendering();
+    recordLayer({map, layer, peels ? Pass::Peel : Pass::Blend, second});
   }
 }
 

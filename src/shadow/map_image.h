@@ -3,9 +3,12 @@
 // parameterization gives, and for two-layer biases a second array with the nearest depth behind the first.
 
 #include "shadow/bias.h"
+#include "shadow/bounded_draws.h"
 #include "shadow/parameterization.h"
 
 #include "shared/shade.glsl"
+
+#include <functional>
 
 namespace gnomon {
 
@@ -74,11 +77,23 @@ class MapRenderer {
     gpu::GraphicsProgram program;
   };
   const gpu::GraphicsProgram& program(const Key& key) const;
-  void recordLayer(gpu::Commands& commands, const SceneBuffers& scene, const MapImage& map,
-                   const LightModel& light, CullMode cull, Pass pass, int layer) const;
+  struct Layer {
+    const MapImage& map;
+    int index;
+    Pass pass;
+    gpu::RenderTargets targets;
+  };
+  // How a draw's triangles are culled: sheets not at all, solids by the side they show the light.
+  enum class Group { Sheets, Solids, MirroredSolids };
+  using Grouping = std::function<Group(const Draw&)>;
+  void recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
+                     const Grouping& groupOf) const;
+  void recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
+                    const Grouping& groupOf) const;
 
   const gpu::Device& device_;
   mutable std::vector<std::unique_ptr<Entry>> programs_;  // compiled at first use
+  mutable BoundedDraws bounded_;
 };
 
 }  // namespace gnomon

@@ -34,8 +34,7 @@ enum class CubeDepth {
 // How the triangles of a dual paraboloid are rasterized.
 enum class ParaboloidRaster {
   Vertex,  // corners are projected, edges are drawn straight: wrong for large triangles (Brabec et al. 2002)
-  Tessellated,  // the same, with triangles split until their edges are straight to half a texel
-  Exact,        // each texel's ray meets the triangle or does not
+  Exact,   // each texel's ray meets the triangle or does not
 };
 
 inline constexpr int kMostCascades = 4;
@@ -63,7 +62,7 @@ WindowFit parseWindowFit(const std::string& name);                // none, tight
 Warp parseWarp(const std::string& name);                          // none, psm, lispsm, tsm
 CubeDepth parseCubeDepth(const std::string& name);                // hyperbolic, radial
 bool parseSnap(const std::string& name);                          // on, off
-ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, tessellated, exact
+ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, exact
 const char* windowFitName(WindowFit fit);
 const char* warpName(Warp warp);
 const char* cubeDepthName(CubeDepth depth);

@@ -174,6 +174,7 @@ TEST(ParaboloidBound, EnclosesEveryTexelWhoseRayMeetsTheTriangle) {
     const auto& [a, b, c] = triangles[i];
     const bool ordinary = i % 8 == 0 || i % 8 == 7;
     const LightTriangle triangle = lightTriangle(a, b, c);
+    const vec3 normal = inversePlaneNormal(triangle);
     for (int layer = 0; layer < 2; ++layer) {
       const QuadBound bound = paraboloidBound(kSide, layer, triangle);
       size_t here = 0;
@@ -185,7 +186,7 @@ TEST(ParaboloidBound, EnclosesEveryTexelWhoseRayMeetsTheTriangle) {
           enclosed += inside && ordinary ? 1 : 0;
           const vec3 dir = mapTexelRay(fitted.map, layer, uv).dir;
           const vec3 distances = sideDistances(triangle, dir);
-          if (!isWithin(distances) || distanceAlong(triangle, dir, distances) < fitted.map.zNear) continue;
+          if (!isWithin(distances) || !(1.0f / dot(normal, dir) >= fitted.map.zNear)) continue;
           ++here;
           missed += inside ? 0 : 1;
         }

@@ -1,0 +1,40 @@
+// The triangles that a layer of a paraboloid map shows, one invocation each.
+#include "shared/bounded_triangle.glsl"
+#include "shared/paraboloid_bound.glsl"
+
+#include "shadow/light_triangle_fetch.glsl"
+
+layout(local_size_x = kBoundGroupSize) in;
+
+layout(scalar, binding = kBindBoundedTriangles) writeonly buffer Found { BoundedTriangle found[]; };
+layout(scalar, binding = kBindBoundedDraw) buffer DrawArguments { uint vertexCount; };
+
+layout(push_constant, scalar) uniform Push {
+  int layer;
+  int facing;  // 1: only what winds counter-clockwise seen from the light, -1: only the rest, 0: both
+  uint firstTriangle;
+  uint triangleCount;
+  uint instance;
+};
+
+void main() {
+  if (gl_GlobalInvocationID.x >= triangleCount) return;
+  uint index = firstTriangle + gl_GlobalInvocationID.x;
+  LightTriangle triangle = fetchLightTriangle(index, instance);
+  if (facing != 0 && float(facing) * triangle.volume >= 0.0f) return;
+  QuadBound bound = paraboloidBound(shadowMap.side, layer, triangle);
+  if (bound.p0 == bound.p1 && bound.p1 == bound.p2) return;
+  BoundedTriangle result;
+  result.p0 = vec2(bound.p0.x, -bound.p0.y);
+  result.p1 = vec2(bound.p1.x, -bound.p1.y);
+  result.p2 = vec2(bound.p2.x, -bound.p2.y);
+  result.p3 = vec2(bound.p3.x, -bound.p3.y);
+  result.sideA = triangle.sideA;
+  result.sideB = triangle.sideB;
+  result.sideC = triangle.sideC;
+  result.inverseNormal = inversePlaneNormal(triangle);
+  result.triangle = index;
+  result.instance = instance;
+  // In any order: the nearest depth is the same.
+  found[atomicAdd(vertexCount, 6u) / 6u] = result;
+}

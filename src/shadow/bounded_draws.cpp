@@ -1,0 +1,76 @@
+#include "shadow/bounded_draws.h"
+
+#include "shared/map.glsl"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+// As the compute shaders declare it.
+struct BoundPush {
+  int32_t layer;
+  int32_t facing;
+  uint32_t firstTriangle, triangleCount, instance;
+};
+
+}  // namespace
+
+std::vector<BoundedDraws::Batch> BoundedDraws::batches(const std::vector<Piece>& pieces) {
+  std::vector<Batch> batches;
+  uint32_t room = 0;
+  for (Piece rest : pieces) {
+    while (rest.triangleCount > 0) {
+      if (room == 0) {
+        batches.emplace_back();
+        room = kBatchTriangles;
+      }
+      Piece piece = rest;
+      piece.triangleCount = std::min(rest.triangleCount, room);
+      batches.back().push_back(piece);
+      room -= piece.triangleCount;
+      rest.firstTriangle += piece.triangleCount;
+      rest.triangleCount -= piece.triangleCount;
+    }
+  }
+  return batches;
+}
+
+const gpu::ComputeProgram& BoundedDraws::program(const std::string& shader) {
+  for (const auto& entry : programs_)
+    if (entry->shader == shader) return entry->program;
+  programs_.push_back(
+      std::make_unique<Entry>(Entry{shader, gpu::ComputeProgram(device_, gpu::ShaderSource{shader, {}})}));
+  return programs_.back()->program;
+}
+
+void BoundedDraws::record(gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& mapUniforms,
+                          const std::string& shader, int layer, const Batch& batch) {
+  if (triangles_.handle() == VK_NULL_HANDLE) {
+    triangles_ = gpu::Buffer(
+        device_, {.name = "bounded triangles", .size = kBatchTriangles * sizeof(glsl::BoundedTriangle)});
+    arguments_ = gpu::Buffer(
+        device_, {.name = "bounded draw",
+                  .size = sizeof(VkDrawIndirectCommand),
+                  .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+    noArguments_ =
+        gpu::createBufferWith(device_, "no bounded draw", std::vector<VkDrawIndirectCommand>{{0, 1, 0, 0}});
+  }
+  commands.copy(noArguments_, arguments_, sizeof(VkDrawIndirectCommand));
+  commands.barrier("the count is zero -> triangles are counted");
+  for (const Piece& piece : batch) {
+    const BoundPush push{layer, piece.facing, piece.firstTriangle, piece.triangleCount, piece.instance};
+    const uint32_t groups = (piece.triangleCount + glsl::kBoundGroupSize - 1) / glsl::kBoundGroupSize;
+    commands.dispatch(program(shader), {groups, 1, 1}, gpu::asPush(push),
+                      {{glsl::kBindPositions, scene.positions},
+                       {glsl::kBindTriangles, scene.triangles},
+                       {glsl::kBindInstances, scene.instances},
+                       {glsl::kBindMap, mapUniforms},
+                       {glsl::kBindBoundedTriangles, triangles_},
+                       {glsl::kBindBoundedDraw, arguments_}});
+  }
+  commands.barrier("triangles and their count are written -> the draw reads them");
+}
+
+}  // namespace gnomon

@@ -1,0 +1,51 @@
+#pragma once
+// Triangles on their way to the non-linear rasterizer: a compute shader of the parameterization throws away
+// what a layer does not show and encloses the projection of the rest (shared/bounded_triangle.glsl), and one
+// indirect draw follows. The list holds one batch at a time, so that a scene of any size takes the same
+// memory.
+
+#include "scene/scene_buffers.h"
+
+#include "shared/bounded_triangle.glsl"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+class BoundedDraws {
+ public:
+  explicit BoundedDraws(const gpu::Device& device) : device_(device) {}
+
+  // Some triangles of one instance, by their numbers in the array of all triangles.
+  struct Piece {
+    uint32_t firstTriangle = 0;
+    uint32_t triangleCount = 0;
+    uint32_t instance = 0;
+    int facing = 0;  // 1: only what winds counter-clockwise seen from the light, -1: only the rest, 0: both
+  };
+  using Batch = std::vector<Piece>;
+  static constexpr uint32_t kBatchTriangles = 1u << 18;  // 22 MiB
+  static std::vector<Batch> batches(const std::vector<Piece>& pieces);
+
+  // Makes the list of one batch for a layer; a draw may read it after.
+  void record(gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& mapUniforms,
+              const std::string& shader, int layer, const Batch& batch);
+
+  const gpu::Buffer& triangles() const { return triangles_; }
+  const gpu::Buffer& arguments() const { return arguments_; }
+
+ private:
+  struct Entry {
+    std::string shader;
+    gpu::ComputeProgram program;
+  };
+  const gpu::ComputeProgram& program(const std::string& shader);
+
+  const gpu::Device& device_;
+  gpu::Buffer triangles_, arguments_, noArguments_;  // made at the first use
+  std::vector<std::unique_ptr<Entry>> programs_;
+};
+
+}  // namespace gnomon

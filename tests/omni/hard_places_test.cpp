@@ -1,0 +1,185 @@
+// Where paraboloids and cubes usually fail: huge triangles, lights in boxes, on surfaces and far away, a far
+// end that is too near.
+#include "omni/paraboloid_map.h"
+#include "omni_fixture.h"
+#include "scene/mesh_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+using test::Layers;
+using test::TexelErrors;
+using test::World;
+
+Scene emptyScene() {
+  Scene scene;
+  scene.name = "by hand";
+  scene.materials.push_back({.name = "grey", .doubleSided = true});
+  return scene;
+}
+
+void add(Scene& scene, MeshBuilder& builder) {
+  scene.meshes.push_back(builder.build());
+  scene.instances.push_back({.name = "", .mesh = static_cast<int>(scene.meshes.size()) - 1});
+}
+
+// A square floor of 2 n^2 triangles, 40 m wide, 2 m below the light.
+Scene floorOf(int n) {
+  Scene scene = emptyScene();
+  MeshBuilder builder("floor", 0);
+  const auto at = [&](int x, int z) { return glm::dvec3(40.0 * x / n - 20.0, -2.0, 40.0 * z / n - 20.0); };
+  for (int z = 0; z < n; ++z)
+    for (int x = 0; x < n; ++x) builder.quad(at(x, z), at(x, z + 1), at(x + 1, z + 1), at(x + 1, z));
+  add(scene, builder);
+  return scene;
+}
+
+Scene box(const glm::dvec3& lower, const glm::dvec3& upper) {
+  Scene scene = emptyScene();
+  MeshBuilder builder("box", 0);
+  builder.box(lower, upper);
+  add(scene, builder);
+  return scene;
+}
+
+MapOptions rasterized(ParaboloidRaster raster, const glm::dvec3& axisW) {
+  return {.paraboloidRaster = raster, .paraboloidAxisW = glm::normalize(axisW)};
+}
+
+class HardPlaces : public gpu::GpuTest {
+ protected:
+  // Off by more than a ten-thousandth of the distance.
+  TexelErrors errorsOf(const World& world, const FittedMap& fitted) {
+    const Layers layers = test::drawLayers(device(), world, fitted, CullMode::None);
+    return test::compareWithRays(
+        world, fitted, layers.z1,
+        {.edgeReach = 0.01, .tolerance = [&](int, glm::ivec2, const SurfaceHit& hit) {
+           return 1e-4 * (hit.distance + fitted.zNear);
+         }});
+  }
+  std::vector<FittedMap> mapsOf(const World& world) {
+    return {test::fitWhole(world, cubeParameterization(), 64),
+            test::fitWhole(world, cubeParameterization(), 64, {.cubeDepth = CubeDepth::Radial}),
+            test::fitWhole(world, paraboloidParameterization(), 111),
+            test::fitWhole(world, paraboloidParameterization(), 111,
+                           rasterized(ParaboloidRaster::Exact, {1.0, 0.2, 0.3}))};
+  }
+};
+
+// The seam runs through the floor (axis 1,0,0), or far above it.
+TEST_F(HardPlaces, ExactDoesNotDependOnTessellationAndVertexDoes) {
+  for (const glm::dvec3 axis : {glm::dvec3(0, -1, 0), glm::dvec3(1, -0.2, 0.1)}) {
+    size_t different[2] = {}, off[2] = {};
+    for (const ParaboloidRaster raster : {ParaboloidRaster::Exact, ParaboloidRaster::Vertex}) {
+      std::vector<float> depths[2];
+      for (const int n : {1, 100}) {
+        const World world = test::openWorld(device(), floorOf(n), glm::dvec3(0.3, 0.0, 0.1));
+        const FittedMap fitted =
+            test::fitWhole(world, paraboloidParameterization(), 256, rasterized(raster, axis));
+        depths[n == 1 ? 0 : 1] = test::drawLayers(device(), world, fitted, CullMode::None).z1;
+        if (n == 1) off[raster == ParaboloidRaster::Exact ? 0 : 1] = errorsOf(world, fitted).off;
+      }
+      for (size_t i = 0; i < depths[0].size(); ++i)
+        // Two planes of the same floor, each rounded: 2^-22 of depth times at most the floor's slant of 1/10.
+        different[raster == ParaboloidRaster::Exact ? 0 : 1] +=
+            std::abs(depths[0][i] - depths[1][i]) > 3e-6f ? 1 : 0;
+    }
+    EXPECT_EQ(different[0], 0u);
+    EXPECT_EQ(off[0], 0u);
+    EXPECT_GT(different[1], 1000u);
+    EXPECT_GT(off[1], 1000u);
+    std::printf("vertex: %zu of 131072 texels depend on the tessellation, %zu are off\n", different[1],
+                off[1]);
+  }
+}
+
+TEST_F(HardPlaces, InsideAClosedBoxEveryTexelIsCovered) {
+  const World world = test::openWorld(device(), box({-1, -2, -3}, {4, 3, 2}), glm::dvec3(0.5, 0.2, -0.4));
+  for (const FittedMap& fitted : mapsOf(world)) {
+    const TexelErrors errors = errorsOf(world, fitted);
+    EXPECT_EQ(errors.covered, errors.held) << fitted.map.kind;
+    EXPECT_EQ(errors.off, 0u) << fitted.map.kind << ", worst " << errors.worst;
+    EXPECT_LT(errors.atEdges, errors.held / 200) << fitted.map.kind;
+  }
+}
+
+// A light in the very plane of a face: the face is seen edge-on and casts nothing, the rest is as it is.
+TEST_F(HardPlaces, OnASurfaceTheRestIsRight) {
+  const World world = test::openWorld(device(), box({-1, -2, -3}, {4, 3, 2}), glm::dvec3(0.5, -2.0, -0.4));
+  for (const FittedMap& fitted : mapsOf(world)) {
+    const Layers layers = test::drawLayers(device(), world, fitted, CullMode::None);
+    size_t empty = 0;
+    for (int layer = 0; layer < fitted.map.layerCount; ++layer) {
+      for (int y = 0; y < fitted.map.side; ++y) {
+        for (int x = 0; x < fitted.map.side; ++x) {
+          if (!glsl::mapHoldsTexel(fitted.map, layer, {x, y})) continue;
+          const RayD ray = test::rayThrough(fitted, layer, glm::dvec2(x, y) + 0.5);
+          if (std::abs(ray.dir.y) < 0.02) continue;  // nearly in the plane
+          const float stored =
+              layers.z1[(static_cast<size_t>(layer) * fitted.map.side + y) * fitted.map.side + x];
+          if (ray.dir.y < 0.0) {
+            ++empty;
+            ASSERT_EQ(stored, 1.0f) << fitted.map.kind;
+            continue;
+          }
+          const auto hit = world.tracer->firstHit({ray.origin + ray.dir * 0.01, ray.dir});
+          ASSERT_TRUE(hit);
+          const glsl::Ray rayL =
+              glsl::mapTexelRay(fitted.map, layer, glsl::mapTexelCenter(fitted.map, {x, y}));
+          ASSERT_NEAR(
+              glsl::mapDistance(fitted.map, layer, rayL, stored), hit->distance + 0.01,
+              // The near end stands at 1e-5 of the diagonal: hyperbolic depth leaves 2^-24 d^2 / near.
+              fitted.map.kind == glsl::kMapCube ? 6e-8 * 60.0 / fitted.map.zNear : 2e-3)
+              << fitted.map.kind;
+        }
+      }
+    }
+    EXPECT_GT(empty, 5000u);
+  }
+}
+
+TEST_F(HardPlaces, FarBeyondTheSceneItIsStillFound) {
+  const World world = test::openWorld(device(), box({-1, -1, -1}, {1, 1, 1}), glm::dvec3(6.0, 3.0, -5.0));
+  for (const FittedMap& fitted : mapsOf(world)) {
+    const TexelErrors errors = errorsOf(world, fitted);
+    EXPECT_GT(errors.covered, 20u);
+    EXPECT_EQ(errors.off, 0u) << fitted.map.kind;
+  }
+}
+
+// What lies behind the far end is not in the map, and nothing before it changes.
+TEST_F(HardPlaces, AFarEndTooNearLosesOnlyWhatLiesBehindIt) {
+  const World world = test::openWorld(device(), findGeneratedScene("atrium")->make());
+  const double near = 0.05, far = 4.0;
+  const float scale = computeBounds(world.scene).diagonal();
+  const std::vector<std::pair<FittedMap, FittedMap>> pairs = {
+      {makeCubeMap(world.light.positionW, CubeDepth::Radial, near, far, 64, scale),
+       makeCubeMap(world.light.positionW, CubeDepth::Radial, near, 40.0, 64, scale)},
+      {makeParaboloidMap(world.light.positionW, {0, -1, 0}, ParaboloidRaster::Exact, near, far, 111, scale),
+       makeParaboloidMap(world.light.positionW, {0, -1, 0}, ParaboloidRaster::Exact, near, 40.0, 111,
+                         scale)}};
+  for (const auto& [cut, whole] : pairs) {
+    const Layers a = test::drawLayers(device(), world, cut, CullMode::None);
+    const Layers b = test::drawLayers(device(), world, whole, CullMode::None);
+    size_t behind = 0, before = 0;
+    for (size_t i = 0; i < a.z1.size(); ++i) {
+      const double metres = near + b.z1[i] * (40.0 - near);
+      if (std::abs(metres - far) < 1e-4) continue;
+      if (metres > far) {
+        ++behind;
+        ASSERT_EQ(a.z1[i], 1.0f);
+      } else {
+        ++before;
+        ASSERT_NEAR(near + a.z1[i] * (far - near), metres, 2e-5);
+      }
+    }
+    EXPECT_GT(behind, 3000u);
+    EXPECT_GT(before, 3000u);
+  }
+}
+
+}  // namespace
+}  // namespace gnomon
