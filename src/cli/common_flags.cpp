@@ -110,7 +110,8 @@ void addSceneFlags(CLI::App& verb, SceneFlags& flags) {
                   "a glTF file (.gltf, .glb), or a generated scene: `gnomon scene` lists them")
       ->required();
   verb.add_option("--light", setup.light,
-                  "NAME of a light of the scene, or x,y,z in metres; default: the scene's first light that "
+                  "NAME of a light of the scene, x,y,z in metres, or all (each in turn, and their sum); "
+                  "default: the scene's first light that "
                   "the map can take, else one "
                   "above its centre (under the roof, where there is one)");
   verb.add_option("--camera", setup.camera,

@@ -79,17 +79,22 @@ double rmseOf(const Exact& exact, std::span<const float> visibility, std::span<c
 class MapComparison {
  public:
   MapComparison(const Session& session, const CompareOptions& options, Passes& passes,
-                const Parameterization& parameterization, Progress& progress)
+                const Parameterization& parameterization, const Light& source, std::string folder,
+                Progress& progress)
       : session_(session),
         options_(options),
         passes_(passes),
         parameterization_(parameterization),
+        source_(source),
+        folder_(std::move(folder)),
         progress_(progress) {}
 
-  void run(Comparison& comparison) {
+  // False where the camera sees nothing that faces the light.
+  bool run(Comparison& comparison) {
     step("exact shadow");
     const Clock::time_point start = Clock::now();
-    exact_ = computeExact(session_, parameterization_);
+    exact_ = computeExact(session_, parameterization_, source_);
+    if (exact_.receivers.scored == 0) return false;
     TruthSummary summary = summarize(parameterization_, exact_);
     summary.receiversAndTraceMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     step("map");
@@ -112,6 +117,7 @@ class MapComparison {
     comparison.truths.push_back(summary);
     comparison.maps.push_back(summarizeMap(fit.fitted));
     comparison.rows.insert(comparison.rows.end(), rows_.begin(), rows_.end());
+    return true;
   }
 
  private:
@@ -159,6 +165,7 @@ class MapComparison {
       for (const size_t pixel : judged.edgeOn) visibility[pixel] = truth.visibility[pixel];
       Row row;
       row.map = parameterization_.name();
+      row.light = source_.name;
       row.mapSide = map.fitted.map.side;
       row.layers = map.fitted.map.layerCount;
       row.cull = cullModeName(options_.cull);
@@ -184,7 +191,7 @@ class MapComparison {
 
   RowPictureNames namesOf(const Row& row) const {
     RowPictureNames names;
-    names.labelStem = fmt::format("{}/{}{}", row.map, row.bias, row.tuning ? ".tuned" : "");
+    names.labelStem = fmt::format("{}/{}{}", folder_, row.bias, row.tuning ? ".tuned" : "");
     names.stem = names.labelStem + (row.filter == "none" ? "" : "." + row.filter);
     names.title = fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "",
                               row.mapSide, row.mapSide);
@@ -224,21 +231,23 @@ class MapComparison {
 
   MapSummary summarizeMap(const FittedMap& fitted) {
     MapSummary summary{.map = parameterization_.name(),
+                       .light = source_.name,
                        .side = fitted.map.side,
                        .layers = fitted.map.layerCount,
                        .zNear = fitted.zNear,
-                       .zFar = fitted.zFar};
+                       .zFar = fitted.zFar,
+                       .solidAngles = computeSolidAngles(fitted)};
     if (options_.outDir.empty()) return summary;
     const bool two = std::ranges::any_of(
         options_.biases, [](const BiasMethod* b) { return b->content == MapContent::TwoLayers; });
     const DrawnMap& map = maps_->with(two ? MapContent::TwoLayers : MapContent::OneLayer);
     const FilteredTruth& plain = filteredTruth(filters().front());
-    summary.pictures = writeMapPictures(session_, exact_, map, plain, options_.outDir, summary.map);
+    summary.pictures = writeMapPictures(session_, exact_, map, plain, options_.outDir, folder_);
     for (const Filter* filter : options_.filters)
       if (filter->id != glsl::kFilterNone)
         summary.filteredTruths.emplace_back(
             filter->name, writeFilteredTruth(exact_, filteredTruth(*filter), options_.outDir,
-                                             fmt::format("{}/truth.{}", summary.map, filter->name)));
+                                             fmt::format("{}/truth.{}", folder_, filter->name)));
     return summary;
   }
 
@@ -246,12 +255,47 @@ class MapComparison {
   const CompareOptions& options_;
   Passes& passes_;
   const Parameterization& parameterization_;
+  const Light source_;
+  const std::string folder_;  // below outDir
   Progress& progress_;
   Exact exact_;
   std::unique_ptr<MapSet> maps_;
   std::map<int, FilteredTruth> truths_;  // by filter
   std::vector<Row> rows_;
 };
+
+// One more row for each method on each map: what all lights together get wrong. The map's texels are those of
+// one light.
+void addSums(Comparison& comparison) {
+  std::vector<Row> sums;
+  for (const Row& row : comparison.rows) {
+    const auto same = [&](const Row& sum) {
+      return sum.map == row.map && sum.bias == row.bias && sum.filter == row.filter &&
+             sum.tuning.has_value() == row.tuning.has_value();
+    };
+    const auto found = std::ranges::find_if(sums, same);
+    if (found == sums.end()) {
+      sums.push_back(row);
+      Row& sum = sums.back();
+      sum.light = "all";
+      sum.isSum = true;
+      sum.pictures.clear();
+      sum.worstAcne = sum.worstLeak = std::nullopt;
+      sum.flip = std::nullopt;
+      if (sum.tuning) sum.knobs = {}, sum.knobUnits = {};  // each light has its own
+      continue;
+    }
+    const double squares = found->rmse * found->rmse * static_cast<double>(found->scored) +
+                           row.rmse * row.rmse * static_cast<double>(row.scored);
+    for (const auto count : {&Row::scored, &Row::agree, &Row::acne, &Row::leak, &Row::edgeShadow,
+                             &Row::edgeLight, &Row::uncovered, &Row::grazing, &Row::edgeOn})
+      (*found).*count += row.*count;
+    found->rmse = std::sqrt(squares / static_cast<double>(found->scored));
+    found->buildMs += row.buildMs;
+    found->shadeMs += row.shadeMs;
+  }
+  comparison.rows.insert(comparison.rows.end(), sums.begin(), sums.end());
+}
 
 int stepsPerMap(const CompareOptions& options) {
   const auto tuned = std::ranges::count_if(
@@ -328,9 +372,24 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   comparison.gbufferMs = median(gbuffer);
 
   Passes passes(session.device(), session.view());
-  Progress progress("compare", static_cast<int>(options.maps.size()) * stepsPerMap(options));
-  for (const Parameterization* parameterization : options.maps)
-    MapComparison(session, options, passes, *parameterization, progress).run(comparison);
+  struct Job {
+    const Parameterization* map;
+    Light light;
+    size_t number;  // of the light
+  };
+  std::vector<Job> jobs;
+  for (const Parameterization* map : options.maps) {
+    const std::vector<Light> lights = chooseLights(session.setup(), session.tracer(), *map);
+    for (size_t i = 0; i < lights.size(); ++i) jobs.push_back({map, lights[i], i});
+  }
+  const bool severalLights = jobs.size() > options.maps.size();
+  Progress progress("compare", static_cast<int>(jobs.size()) * stepsPerMap(options));
+  for (const auto& [map, light, number] : jobs) {
+    const std::string folder = severalLights ? fmt::format("{}/light{}", map->name(), number) : map->name();
+    MapComparison(session, options, passes, *map, light, folder, progress).run(comparison);
+  }
+  if (comparison.rows.empty()) computeExact(session, *options.maps.front());  // says why
+  if (severalLights) addSums(comparison);
   return comparison;
 }
 

@@ -2,6 +2,7 @@
 // The main job: every chosen map with every chosen bias and filter, against the exact shadow, pixel by pixel.
 
 #include "lab/session.h"
+#include "lab/unfold.h"
 #include "shadow/user_bias.h"
 
 #include <filesystem>
@@ -67,6 +68,8 @@ struct WorstPlace {
 // One method on one map through one filter. Counts are of the unfiltered map, and add up to `scored`.
 struct Row {
   std::string map;
+  std::string light;   // its name
+  bool isSum = false;  // of the same method's rows over all lights: counts and times added, no pictures
   int mapSide = 0;
   int layers = 0;
   std::string bias;
@@ -105,9 +108,10 @@ struct TruthSummary {
 };
 
 struct MapSummary {
-  std::string map;
+  std::string map, light;
   int side = 0, layers = 0;
   float zNear = 0.0f, zFar = 0.0f;
+  std::optional<SolidAngles> solidAngles;                        // of texels of maps that look around a point
   Pictures pictures;                                             // depth, second_depth, layer_gap, truth, ...
   std::vector<std::pair<std::string, Pictures>> filteredTruths;  // by filter: visibility, beauty
 };

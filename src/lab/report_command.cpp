@@ -63,7 +63,7 @@ constexpr std::array kDropped = {"--maps",       "--biases", "--filters",    "--
                                  "--map-texels", "--cull",   "--epsilon-at", "-o",
                                  "--out",        "--json",   "--fail-if"};
 
-std::string keptPart(const std::string& command) {
+std::string keptPart(const std::string& command, bool dropsLight) {
   std::string kept;
   bool dropsNext = false;
   for (const std::string& word : wordsOf(command)) {
@@ -71,7 +71,8 @@ std::string keptPart(const std::string& command) {
     if (word == "--tune" || word == "--quiet") continue;
     if (word.starts_with("-o") && word.size() > 2) continue;  // -oDIR
     const std::string flag = word.substr(0, word.find('='));
-    if (std::ranges::find(kDropped, flag) != kDropped.end() || isKnobFlag(flag)) {
+    if (std::ranges::find(kDropped, flag) != kDropped.end() || isKnobFlag(flag) ||
+        (dropsLight && flag == "--light")) {
       dropsNext = flag.size() == word.size();
       continue;
     }
@@ -91,8 +92,9 @@ std::string knobFlag(const ReportRow& row, const std::string& knob) {
 
 std::string rowCommand(const std::string& command, const ReportRow& row) {
   if (!command.starts_with("gnomon compare ")) return command;
-  std::string line =
-      keptPart(command) + fmt::format(" --maps {} --biases {}", quoted(row.map), quoted(row.bias));
+  std::string line = keptPart(command, !row.light.empty()) +
+                     fmt::format(" --maps {} --biases {}", quoted(row.mapName), quoted(row.bias));
+  if (!row.light.empty()) line += " --light " + quoted(row.light);
   if (row.filter != "none") line += " --filters " + quoted(row.filter);
   line += fmt::format(" --map-size {}", row.mapSize);
   for (const ReportParam& param : row.params) {

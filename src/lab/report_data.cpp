@@ -162,6 +162,9 @@ ReportRow readRow(const Field& field) {
   ReportRow row{.map = field["map"].text(),
                 .bias = field["bias"].text(),
                 .filter = field.has("filter") ? field["filter"].text() : "none",
+                .mapName = field["map"].text(),
+                .light = field.has("light") ? field["light"].text() : "",
+                .isSum = field.has("sum") && field["sum"].flag(),
                 .mapSize = field["map_size"].count(),
                 .layers = field["layers"].count(),
                 .scored = field["scored"].count(),
@@ -192,6 +195,7 @@ ReportRow readRow(const Field& field) {
 
 ReportMap readMap(const Field& field) {
   ReportMap map{.map = field["map"].text(),
+                .light = field.has("light") ? field["light"].text() : "",
                 .mapSize = field.has("map_size") ? field["map_size"].count() : 0,
                 .layers = field.has("layers") ? field["layers"].count() : 0,
                 .zNear = readOptionalNumber(field, "z_near"),
@@ -217,6 +221,7 @@ std::string lightText(const Field& light) {
 ReportTruth readTruth(const Field& field) {
   return {.map = field["map"].text(),
           .light = lightText(field["light"]),
+          .lightName = field["light"]["name"].text(),
           .scored = field["scored"].count(),
           .lit = field["lit"].count(),
           .facingAway = field["facing_away"].count(),
@@ -241,6 +246,21 @@ ReportMap mapOfSchema1(const Field& truth, const fs::path& folder, const std::ve
   for (const auto& [kind, name] : names)
     if (fs::exists(folder / map.map / name)) map.pictures.emplace_back(kind, map.map + "/" + name);
   return map;
+}
+
+// Where several lights were compared, a map is named with its light; where there was one, its name says
+// nothing.
+void nameLights(ReportData& data) {
+  const bool several = std::ranges::any_of(data.rows, &ReportRow::isSum);
+  const auto name = [&](std::string& map, const std::string& light) {
+    if (several) map += ", " + light;
+  };
+  for (ReportTruth& truth : data.truths) name(truth.map, truth.lightName);
+  for (ReportMap& map : data.maps) name(map.map, map.light);
+  for (ReportRow& row : data.rows) {
+    name(row.map, row.light);
+    if (!several) row.light.clear();
+  }
 }
 
 ReportData readAll(const Field& root, const fs::path& folder) {
@@ -273,6 +293,7 @@ ReportData readAll(const Field& root, const fs::path& folder) {
   else
     root["truths"].forItems(
         [&](const Field& truth) { data.maps.push_back(mapOfSchema1(truth, folder, data.rows)); });
+  nameLights(data);
   std::ranges::stable_sort(data.rows, {},
                            [](const ReportRow& row) { return std::tuple(row.biasError, row.wrong()); });
   return data;

@@ -37,7 +37,9 @@ struct ReportParam {
 };
 
 struct ReportRow {
-  std::string map, bias, filter;
+  std::string map, bias, filter;  // map with its light, where there are several: "cube, lamp"
+  std::string mapName, light;     // as --maps and --light take them; light is empty where there is one
+  bool isSum = false;             // over all lights
   uint64_t mapSize = 0, layers = 0;
   std::vector<ReportParam> params;  // in the order of the file
   uint64_t scored = 0, agree = 0, acne = 0, leak = 0, edgeShadow = 0, edgeLight = 0, uncovered = 0;
@@ -53,7 +55,7 @@ struct ReportRow {
 };
 
 struct ReportMap {
-  std::string map;
+  std::string map, light;
   uint64_t mapSize = 0, layers = 0;
   std::optional<double> zNear, zFar;                                   // metres
   ReportPictures pictures;                                             // truth and truth_beauty among them
@@ -61,7 +63,7 @@ struct ReportMap {
 };
 
 struct ReportTruth {
-  std::string map, light;  // the light in words
+  std::string map, light, lightName;  // the light in words, and its name
   uint64_t scored = 0, lit = 0, facingAway = 0, outsideCone = 0, flipsHalf = 0, flipsDouble = 0;
   double margin = 0.0;  // metres
 };

@@ -92,10 +92,14 @@ Json toJson(const std::optional<Tuning>& tuning) {
 Json toJson(const MapSummary& map) {
   Json json;
   json["map"] = map.map;
+  json["light"] = map.light;
   json["map_size"] = map.side;
   json["layers"] = map.layers;
   json["z_near"] = shortest(map.zNear);
   json["z_far"] = shortest(map.zFar);
+  json["texel_solid_angle"] =
+      map.solidAngles ? Json{{"smallest", map.solidAngles->smallest}, {"largest", map.solidAngles->largest}}
+                      : Json(nullptr);
   json["pictures"] = toJson(map.pictures);
   json["truth_filtered"] = Json::object();
   for (const auto& [filter, pictures] : map.filteredTruths) json["truth_filtered"][filter] = toJson(pictures);
@@ -114,6 +118,8 @@ Json toJson(const Row& row, double gbufferMs) {
   params["cascades"] = row.mapOptions.cascades;
   Json json;
   json["map"] = row.map;
+  json["light"] = row.light;
+  json["sum"] = row.isSum;
   json["map_size"] = row.mapSide;
   json["layers"] = row.layers;
   json["map_texels"] = static_cast<uint64_t>(row.mapSide) * row.mapSide * row.layers;

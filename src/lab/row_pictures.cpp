@@ -34,6 +34,11 @@ Pictures writeMapPictures(const Session& session, const Exact& exact, const Draw
   };
   const DepthImages depth = depthInMetres(session, map);
   writeDepth("depth", depth.first);
+  if (map.fitted.map.layerCount > 1) {
+    const std::string path = mapName + "/unfolded.png";
+    writePng(outDir / path, unfoldedPicture(depthPicture(depth.first), map.fitted.map, {64, 48, 64}));
+    pictures.emplace_back("unfolded", path);
+  }
   if (depth.second) writeDepth("second_depth", *depth.second);
   if (depth.gap) writeDepth("layer_gap", *depth.gap);
   const Pictures truths = writeFilteredTruth(exact, truth, outDir, mapName + "/truth");

@@ -80,10 +80,14 @@ Exact traceExact(const Session& session, const Light& source, const LightModel& 
   return exact;
 }
 
+Exact computeExact(const Session& session, const Parameterization& parameterization, const Light& source) {
+  const glm::dvec3 aimW = source.type == LightType::Point ? aimOf(session, source) : glm::dvec3(0.0);
+  return traceExact(session, source, parameterization.lightModel(source, aimW));
+}
+
 Exact computeExact(const Session& session, const Parameterization& parameterization) {
   const Light source = chooseLight(session.setup(), session.tracer(), parameterization);
-  const glm::dvec3 aimW = source.type == LightType::Point ? aimOf(session, source) : glm::dvec3(0.0);
-  Exact exact = traceExact(session, source, parameterization.lightModel(source, aimW));
+  Exact exact = computeExact(session, parameterization, source);
   if (exact.receivers.scored == 0)
     throw WorldError(fmt::format(
         "light '{}', camera '{}': the camera sees no surface that faces the light; move one of them "

@@ -56,6 +56,8 @@ struct Exact {
 };
 // Throws WorldError where the camera sees nothing that faces the light.
 Exact computeExact(const Session& session, const Parameterization& parameterization);
+// The same for one light; nothing may be scored.
+Exact computeExact(const Session& session, const Parameterization& parameterization, const Light& source);
 // The same for a light that is taken already; nothing may be scored.
 Exact traceExact(const Session& session, const Light& source, const LightModel& light);
 

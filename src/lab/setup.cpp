@@ -191,6 +191,27 @@ Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Param
   return light;
 }
 
+std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& tracer,
+                                const Parameterization& map) {
+  if (options.light != "all") return {chooseLight(options, tracer, map)};
+  std::vector<Light> lights;
+  for (const auto wanted : {Parameterization::Takes::Yes, Parameterization::Takes::IfNothingElse}) {
+    if (!lights.empty()) break;
+    for (const Light& light : tracer.scene().lights) {
+      if (map.takes(light.type) != wanted) continue;
+      SetupOptions one = options;
+      one.light = light.name;
+      lights.push_back(chooseLight(one, tracer, map));
+    }
+  }
+  if (lights.empty())
+    throw WorldError(
+        fmt::format("--light all: the scene has no light that a {} map can be made of; it has {}; "
+                    "write x,y,z",
+                    map.name(), namesOf(tracer.scene().lights)));
+  return lights;
+}
+
 Camera chooseCamera(const SetupOptions& options, const Tracer& tracer) {
   const Scene& scene = tracer.scene();
   if (options.camera.empty()) return scene.cameras.empty() ? cameraThatSees(tracer) : scene.cameras.front();

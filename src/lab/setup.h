@@ -35,6 +35,11 @@ glm::vec3 parseVec3(const std::string& flag, const std::string& text);
 // there are; or one that the map cannot take).
 Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map);
 
+// The same; and for --light all every light of the scene that the map is made for (where there is none, those
+// it can make do with). At least one.
+std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& tracer,
+                                const Parameterization& map);
+
 // Throws UsageError (malformed) or WorldError (none of that name: lists those there are).
 Camera chooseCamera(const SetupOptions& options, const Tracer& tracer);
 

@@ -26,18 +26,32 @@ std::string biasText(const Row& row) {
   return row.bias + (row.tuning ? " (tuned)" : "");
 }
 
-// The row of a bias on a map, unfiltered counts being the same for all filters.
+bool hasSums(const Comparison& comparison) {
+  return std::ranges::any_of(comparison.rows, &Row::isSum);
+}
+
+// "cube 1024", and the light where there are several.
+std::string mapText(const Comparison& comparison, const Row& row) {
+  return fmt::format("{} {}{}", row.map, row.mapSide, hasSums(comparison) ? ", " + row.light : "");
+}
+
+// The row of a bias on a map (of all lights together), unfiltered counts being the same for all filters.
 const Row* findRow(const Comparison& comparison, const std::string& map, const std::string& bias,
                    bool tuned) {
   for (const Row& row : comparison.rows)
-    if (row.map == map && row.bias == bias && row.tuning.has_value() == tuned) return &row;
+    if (row.map == map && row.bias == bias && row.tuning.has_value() == tuned &&
+        row.isSum == hasSums(comparison))
+      return &row;
   return nullptr;
 }
 
 // "adaptive (default) against the best constant: 120 / 40 = 3.0". More than 1: better.
 std::string factorLines(const Comparison& comparison) {
   std::string text;
+  std::vector<std::string> told;
   for (const MapSummary& map : comparison.maps) {
+    if (std::ranges::find(told, map.map) != told.end()) continue;
+    told.push_back(map.map);
     for (const char* bias : {"dual", "adaptive"}) {
       for (const bool tuned : {false, true}) {
         const Row* row = findRow(comparison, map.map, bias, tuned);
@@ -67,19 +81,23 @@ std::vector<Row> ranked(std::vector<Row> rows) {
 }
 
 std::string comparisonTable(const Comparison& comparison) {
-  size_t knobWidth = 5;
-  for (const Row& row : comparison.rows) knobWidth = std::max(knobWidth, knobText(row).size());
+  size_t knobWidth = 5, mapWidth = 16;
+  for (const Row& row : comparison.rows) {
+    knobWidth = std::max(knobWidth, knobText(row).size());
+    mapWidth = std::max(mapWidth, mapText(comparison, row).size());
+  }
   std::string text = fmt::format(
-      "{:<16} {:<25} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>7} {:>7} {:>9} {:>9}\n",
-      "map", "bias", "filter", "knobs", knobWidth, "agree", "acne", "leak", "edge_sh", "edge_li", "uncovered",
-      "bias error", "rmse", "flip", "build ms", "shade ms");
+      "{:<{}} {:<25} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>7} {:>7} {:>9} {:>9}\n",
+      "map", mapWidth, "bias", "filter", "knobs", knobWidth, "agree", "acne", "leak", "edge_sh", "edge_li",
+      "uncovered", "bias error", "rmse", "flip", "build ms", "shade ms");
   for (const Row& row : ranked(comparison.rows)) {
+    if (row.isSum != hasSums(comparison)) continue;  // of several lights their sums; each is in the report
     text += fmt::format(
-        "{:<16} {:<25} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9.4f}% {:>7.4f} {:>7} {:>9.2f} "
+        "{:<{}} {:<25} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9.4f}% {:>7.4f} {:>7} {:>9.2f} "
         "{:>9.2f}\n",
-        fmt::format("{} {}", row.map, row.mapSide), biasText(row), row.filter, knobText(row), knobWidth,
-        row.agree, row.acne, row.leak, row.edgeShadow, row.edgeLight, row.uncovered, 100.0 * row.biasError(),
-        row.rmse, row.flip ? fmt::format("{:.4f}", *row.flip) : "", row.buildMs, row.shadeMs);
+        mapText(comparison, row), mapWidth, biasText(row), row.filter, knobText(row), knobWidth, row.agree,
+        row.acne, row.leak, row.edgeShadow, row.edgeLight, row.uncovered, 100.0 * row.biasError(), row.rmse,
+        row.flip ? fmt::format("{:.4f}", *row.flip) : "", row.buildMs, row.shadeMs);
   }
   return text;
 }
@@ -87,7 +105,7 @@ std::string comparisonTable(const Comparison& comparison) {
 std::string tuningTable(const Comparison& comparison) {
   std::string text;
   for (const Row& row : comparison.rows) {
-    if (!row.tuning || row.filter != comparison.rows.front().filter) continue;
+    if (!row.tuning || row.isSum || row.filter != comparison.rows.front().filter) continue;
     const Tuning& tuning = *row.tuning;
     text += fmt::format("tuned {} {}: {} in {} tries; bias error {:.4f}%", row.map, row.bias, knobText(row),
                         tuning.evaluations, 100.0 * row.biasError());
@@ -116,6 +134,15 @@ std::string comparisonHeader(const Session& session, const Comparison& compariso
         truth.map, truth.lightName, truth.scored, truth.lit, truth.facingAway, truth.outsideCone,
         100.0 * flips / static_cast<double>(truth.scored), truth.margin, truth.marginFlipsHalf,
         truth.marginFlipsDouble);
+    if (!truth.fitNote.empty()) text += truth.fitNote + "\n";
+  }
+  std::string last;
+  for (const MapSummary& map : comparison.maps) {
+    if (!map.solidAngles || map.map == last) continue;
+    last = map.map;
+    text += fmt::format("{} map, {} x {} x {} texels: from {:.3g} to {:.3g} steradians, 1 to {:.2f}\n",
+                        map.map, map.layers, map.side, map.side, map.solidAngles->smallest,
+                        map.solidAngles->largest, map.solidAngles->largest / map.solidAngles->smallest);
   }
   return text;
 }

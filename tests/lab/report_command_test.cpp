@@ -8,7 +8,7 @@ namespace {
 
 ReportRow rowOf(const std::string& bias) {
   ReportRow row;
-  row.map = "spot";
+  row.map = row.mapName = "spot";
   row.bias = bias;
   row.filter = "none";
   row.mapSize = 512;
