@@ -57,6 +57,8 @@ const std::vector<GeneratedScene>& generatedScenes() {
        makeContact},
       {"slope", "acne as a function of the angle to the light: planes from facing it to 88.5 degrees off.",
        makeSlope},
+      {"near-far", "a bias in metres cannot be right at one metre and at forty: Dou et al. 2014, figure 7.",
+       makeNearFar},
       {"crowd", "vertex work: instances of shared meshes; crowd:N has about N triangles, to 19 million.",
        makeDefaultCrowd},
   };

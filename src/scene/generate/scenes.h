@@ -14,6 +14,7 @@ Scene makeGrate();
 Scene makeSheets();
 Scene makeContact();
 Scene makeSlope();
+Scene makeNearFar();
 
 // Within 5% of `triangles`, which must be in this range.
 constexpr uint64_t kCrowdMin = 10'000;
