@@ -17,6 +17,7 @@ Scene makeNearFar() {
   Scene scene;
   scene.name = "near-far";
   const int stone = addMaterial(scene, "stone", {0.56f, 0.55f, 0.52f}, true);
+  const int plaster = addMaterial(scene, "plaster", {0.62f, 0.60f, 0.55f});
   const int wood = addMaterial(scene, "wood", {0.52f, 0.30f, 0.14f});
   const int iron = addMaterial(scene, "iron", {0.24f, 0.26f, 0.29f});
   addMesh(scene, groundMesh("floor", stone, {-9.0, -44.0}, {9.0, 4.0}));
@@ -35,7 +36,7 @@ Scene makeNearFar() {
   addMesh(scene, slats.build());
 
   // Light falls on it at 60 to 70 degrees from its normal.
-  MeshBuilder wall("wall", stone);
+  MeshBuilder wall("wall", plaster);
   wall.place(placed({0.0, 0.0, -40.0}, {0, 1, 0}, 62.0));
   wall.box({-9.0, 0.0, -0.4}, {9.0, 6.0, 0.0});
   addMesh(scene, wall.build());
