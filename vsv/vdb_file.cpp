@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <vector>
 
@@ -122,17 +123,24 @@ openvdb::MetaMap notes(const glsl::EpipolarGrid& grid, const VdbOptions& options
   return meta;
 }
 
-// A full disk does not make OpenVDB's writer fail; reading back does.
-void checkWritten(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids) {
-  openvdb::io::File file(path.string());
-  file.open(/*delayLoad=*/false);
-  const openvdb::GridPtrVecPtr read = file.getGrids();
-  if (read->size() != grids.size()) throw openvdb::IoError("a grid is missing");
-  for (const openvdb::GridBase::ConstPtr& grid : grids) {
-    const openvdb::GridBase::Ptr found = openvdb::findGridByName(*read, grid->getName());
-    if (!found || found->activeVoxelCount() != grid->activeVoxelCount())
-      throw openvdb::IoError("what was written cannot be read back");
+// OpenVDB's own File writes to a stream whose failures it does not look at, so that a full disk would go
+// unseen.
+class CheckedArchive : public openvdb::io::Archive {
+ public:
+  void writeTo(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
+               const openvdb::MetaMap& meta) const {
+    std::ofstream out(path, std::ios::binary);
+    if (out) Archive::write(out, grids, /*seekable=*/true, meta);
+    out.close();
+    if (!out) throw openvdb::IoError("check that the folder exists and has room");
   }
+};
+
+// OpenVDB puts the exception's name before the text.
+std::string messageOf(const openvdb::Exception& error) {
+  const std::string text = error.what();
+  const size_t colon = text.find(": ");
+  return colon == std::string::npos ? text : text.substr(colon + 2);
 }
 
 double sizeOf(const Bounds& boundsW, double voxel) {
@@ -190,12 +198,11 @@ VdbSummary writeVdb(const std::filesystem::path& path, const VolumeGrid& mask, c
     }
     const openvdb::GridCPtrVec grids = {density, epipolar};
     writeAtomically(path, [&](const std::filesystem::path& aside) {
-      openvdb::io::File(aside.string()).write(grids, meta);
-      checkWritten(aside, grids);
+      CheckedArchive().writeTo(aside, grids, meta);
       summary.fileBytes = std::filesystem::file_size(aside);
     });
   } catch (const openvdb::Exception& error) {
-    throw fileError(path.string(), "cannot be written", error.what());
+    throw fileError(path.string(), "cannot be written", messageOf(error));
   }
   return summary;
 }

@@ -37,7 +37,7 @@ struct VdbSummary {
   double voxelMetres = 0.0;
   uint64_t fileBytes = 0;
 };
-// Whole or not at all: the file is read back before it gets its name. Throws UsageError (a voxel size that
+// Whole or not at all. Throws UsageError (a voxel size that
 // gives too many voxels) and WorldError (cannot be written).
 VdbSummary writeVdb(const std::filesystem::path& path, const VolumeGrid& mask, const DenseVolume& volume,
                     const VdbOptions& options);
