@@ -38,6 +38,24 @@ enum class ParaboloidRaster {
   Exact,        // each texel's ray meets the triangle or does not
 };
 
+// Voxels of a shadow volume along its three angles (shaders/shared/epipolar.glsl); phi a multiple of 128.
+struct VolumeSize {
+  int alpha = 1024, theta = 1024, phi = 512;
+  bool operator==(const VolumeSize&) const = default;
+};
+
+// Where the occluders of a shadow volume come from.
+enum class VolumeSource {
+  Resample,  // a cube map of the scene, looked up along each column (the papers' way)
+  Direct,    // the scene itself, drawn into (theta, phi), each column deciding by its own ray
+};
+
+// What alpha, theta and phi of a shadow volume cover.
+enum class VolumeFit {
+  Frustum,  // what the camera sees, from the eye to the surfaces
+  Full,     // the whole sphere, as in the papers
+};
+
 struct MapOptions {
   WindowFit fit = WindowFit::Focused;
   bool snap = true;  // texels keep their places in the world while the camera moves
@@ -47,6 +65,9 @@ struct MapOptions {
   ParaboloidRaster paraboloidRaster = ParaboloidRaster::Exact;
   std::optional<glm::dvec3>
       paraboloidAxisW;  // unit; absent: the seam is turned away from what the camera sees
+  VolumeSize volumeSize;
+  VolumeSource volumeSource = VolumeSource::Direct;
+  VolumeFit volumeFit = VolumeFit::Frustum;
 };
 
 // By their names on the command line. Each throws UsageError that names the flag and lists the choices.
@@ -54,9 +75,15 @@ WindowFit parseWindowFit(const std::string& name);                // none, tight
 Warp parseWarp(const std::string& name);                          // none, psm, lispsm, tsm
 CubeDepth parseCubeDepth(const std::string& name);                // hyperbolic, radial
 ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, tessellated, exact
+VolumeSize parseVolumeSize(const std::string& text);              // AxTxP
+VolumeSource parseVolumeSource(const std::string& name);          // resample, direct
+VolumeFit parseVolumeFit(const std::string& name);                // frustum, full
 const char* windowFitName(WindowFit fit);
 const char* warpName(Warp warp);
 const char* cubeDepthName(CubeDepth depth);
 const char* paraboloidRasterName(ParaboloidRaster raster);
+std::string volumeSizeName(const VolumeSize& size);
+const char* volumeSourceName(VolumeSource source);
+const char* volumeFitName(VolumeFit fit);
 
 }  // namespace gnomon

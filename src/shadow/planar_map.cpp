@@ -100,7 +100,7 @@ FittedMap fitPlanar(const FitInput& input, bool perspective) {
   fitted.map = {};
   fitted.map.kind = glsl::kMapPlanar;
   fitted.map.layerCount = 1;
-  fitted.map.side = input.side;
+  fitted.map.side = fitted.map.rows = input.side;
   fitted.map.sceneScale = sceneBounds.diagonal();
   const glm::dmat4 clip = clipFromLight(window, range, perspective);
   fitted.map.mapLayers[0].clipFromLight = glm::mat4(clip);
