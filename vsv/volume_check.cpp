@@ -61,20 +61,23 @@ BitsCheck checkTheta(const DenseVolume& measured, const Columns& columns, int th
 
 }  // namespace
 
-// alpha = atan2(a, D - z) of a point P = r (sin phi sin theta, sin phi cos theta, cos phi), a its distance
-// from the axis. In units of 2^-23:
-// - sin and cos are good to 1 ulp, their products to 1/2 more: 2.5 for each coordinate of the direction;
-// - r, a quotient by one of those coordinates, adds 2.5 and 1/2, its product with the direction 1/2: P is off
-//   by at most 6 r along each axis and 6 sqrt(3) r = 10.4 r in all, and D - z rounds by 1/2 D once more;
-// - seen from E at the distance d that is an angle of (10.4 r + 0.5 D) / d, and the law of sines has
+// alpha = atan2(a, D - z) of a point P = r dir, a its distance from the axis, found by a map's texel. In
+// units of 2^-23, between two processors:
+// - sin and cos differ by 1 ulp, their products by 1/2 more: 2.5 for each coordinate of dir;
+// - r is the texel's depth by dir's share along the face's axis, at least 1/sqrt(3), after two rotations of
+//   2 ulps each: 6.5 sqrt(3) = 11.3 r;
+// - their product rounds by 1/2 along each axis, r itself by 1/2: P lies off by at most (11.3 + 2.5 + 1.4) r
+// in
+//   all, and D - z rounds by 1/2 D once more;
+// - seen from E at the distance d that is an angle of (15.2 r + 0.5 D) / d, and the law of sines has
 //   r / d = sin alpha / sin phi, D / d = sin(phi + alpha) / sin phi.
 // The arc tangent itself adds 3.3e-6 alpha, measured.
-float alphaTolerance(const glsl::EpipolarGrid&, float alphaOccluder, float phi) {
+float alphaTolerance(float alphaOccluder, float phi) {
   constexpr float kUlp = 0x1p-23f;
   constexpr float kArcTangent = 3.3e-6f;
   if (!(alphaOccluder < glsl::kPi)) return 0.0f;
   const float perDistance =
-      (10.4f * std::sin(alphaOccluder) + 0.5f * std::abs(std::sin(phi + alphaOccluder))) / std::sin(phi);
+      (15.2f * std::sin(alphaOccluder) + 0.5f * std::abs(std::sin(phi + alphaOccluder))) / std::sin(phi);
   return kArcTangent * alphaOccluder + kUlp * perDistance;
 }
 

@@ -10,7 +10,7 @@
 namespace gnomon {
 
 // By how much a column's alpha_occ may differ between two processors, radians (volume_check.cpp derives it).
-float alphaTolerance(const glsl::EpipolarGrid& grid, float alphaOccluder, float phi);
+float alphaTolerance(float alphaOccluder, float phi);
 
 // Measured bits against those that occluders imply.
 struct BitsCheck {
