@@ -6,9 +6,8 @@ namespace gnomon {
 
 namespace {
 
-gpu::ComputeProgram voxelizer(const gpu::Device& device, int step) {
-  return {device, {"vsv/voxelize.comp.glsl", {}}, {{.id = 0, .value = step}}};
-}
+constexpr const char* kFindOccluders = "vsv/find_occluders.comp.glsl";
+constexpr const char* kVoxelize = "vsv/voxelize.comp.glsl";
 
 uint32_t groups(int count, int size) {
   return static_cast<uint32_t>((count + size - 1) / size);
@@ -16,18 +15,12 @@ uint32_t groups(int count, int size) {
 
 }  // namespace
 
-VolumeRenderer::VolumeRenderer(const gpu::Device& device)
-    : device_(device),
-      seed_(voxelizer(device, glsl::kVoxelizeSeed)),
-      scan_(voxelizer(device, glsl::kVoxelizeScan)),
-      fused_(voxelizer(device, glsl::kVoxelizeFused)) {}
-
-const gpu::ComputeProgram& VolumeRenderer::finder(int sourceKind) const {
-  for (const auto& finder : finders_)
-    if (finder->sourceKind == sourceKind) return finder->program;
-  finders_.push_back(std::make_unique<Finder>(
-      Finder{sourceKind, {device_, {"vsv/find_occluders.comp.glsl", {}}, {{.id = 0, .value = sourceKind}}}}));
-  return finders_.back()->program;
+const gpu::ComputeProgram& VolumeRenderer::program(const char* shader, int constant) const {
+  for (const auto& entry : programs_)
+    if (entry->shader == shader && entry->constant == constant) return entry->program;
+  programs_.push_back(std::make_unique<Entry>(
+      Entry{shader, constant, {device_, {shader, {}}, {{.id = 0, .value = constant}}}}));
+  return programs_.back()->program;
 }
 
 void VolumeRenderer::record(gpu::Commands& commands, const MapRenderer& maps, const SceneBuffers& scene,
@@ -40,7 +33,7 @@ void VolumeRenderer::record(gpu::Commands& commands, const MapRenderer& maps, co
   const glsl::EpipolarGrid& grid = volume.fitted().grid;
   commands.beginStage("volume occluders");
   commands.dispatch(
-      finder(volume.source().kind()),
+      program(kFindOccluders, volume.source().kind()),
       {groups(grid.thetaCount, glsl::kColumnGroupSide), groups(grid.phiCount, glsl::kColumnGroupSide), 1}, {},
       {{glsl::kBindMap, volume.uniforms()},
        {glsl::kBindSourceMap, volume.source().uniforms()},
@@ -63,14 +56,14 @@ void VolumeRenderer::recordBits(gpu::Commands& commands, const ShadowVolume& vol
                                               {glsl::kBindOccluders, volume.occluders()},
                                               {glsl::kBindBits, volume.bits()}};
   if (how == Voxelization::Fused) {
-    commands.dispatch(fused_, size, {}, bindings);
+    commands.dispatch(program(kVoxelize, glsl::kVoxelizeFused), size, {}, bindings);
     return;
   }
   commands.fill(volume.bits(), 0);
   commands.barrier("the volume is cleared -> the first occluded voxels are set");
-  commands.dispatch(seed_, size, {}, bindings);
+  commands.dispatch(program(kVoxelize, glsl::kVoxelizeSeed), size, {}, bindings);
   commands.barrier("the first occluded voxels are set -> the scan ORs what lies before");
-  commands.dispatch(scan_, size, {}, bindings);
+  commands.dispatch(program(kVoxelize, glsl::kVoxelizeScan), size, {}, bindings);
 }
 
 }  // namespace gnomon

@@ -6,7 +6,9 @@
 #include "gpu/shader_compiler.h"
 #include "lab/maps.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include <fmt/format.h>
@@ -68,6 +70,27 @@ void addUserBiases(const MethodFlags& flags, CompareOptions& options) {
         {&method.knobs.front(), checkedKnob("--bias-file-knob", method.knobs.front(), *flags.biasFileKnob)});
   }
   if (flags.biasFiles.empty() && flags.biasFileKnob) throw UsageError("--bias-file-knob needs a --bias-file");
+}
+
+// What means nothing on a map is left out there, and said so; where nothing is left, refused.
+void checkMeaning(const CompareOptions& options, const Parameterization& map) {
+  const CompareOptions own = optionsFor(options, map);
+  std::string biases, left;
+  for (const BiasMethod& method : biasMethods())
+    if (map.answers(method)) biases += (biases.empty() ? "" : ", ") + std::string(method.name);
+  if (own.biases.empty())
+    throw UsageError(
+        fmt::format("--maps {} takes none of these --biases; choose from {}", map.name(), biases));
+  if (own.filters.empty())
+    throw UsageError(fmt::format("--maps {} takes no filter; add --filters none", map.name()));
+  for (const BiasMethod* bias : options.biases)
+    if (std::ranges::find(own.biases, bias) == own.biases.end())
+      left += (left.empty() ? "" : ", ") + std::string(bias->name);
+  for (const Filter* filter : options.filters)
+    if (std::ranges::find(own.filters, filter) == own.filters.end())
+      left += (left.empty() ? "" : ", ") + std::string(filter->name);
+  if (!left.empty())
+    fmt::print(stderr, "gnomon: {} has no depths to compare, so it leaves out {}\n", map.name(), left);
 }
 
 }  // namespace
@@ -162,6 +185,17 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
                   "exact: each texel's ray decides; vertex: edges are drawn straight, which they are not; "
                   "tessellated: the same with triangles split")
       ->capture_default_str();
+  verb.add_option("--vsv-size", flags.vsvSize,
+                  "voxels of a shadow volume, ALPHAxTHETAxPHI; PHI a multiple of 128")
+      ->capture_default_str();
+  verb.add_option(
+          "--vsv-source", flags.vsvSource,
+          "direct: each of a volume's columns meets the scene itself; resample: columns are looked up in a "
+          "cube map of side --map-size")
+      ->capture_default_str();
+  verb.add_option("--vsv-fit", flags.vsvFit,
+                  "frustum: a volume covers what the camera sees; full: the whole sphere")
+      ->capture_default_str();
   for (const BiasMethod& method : biasMethods())
     for (const BiasKnob& knob : method.knobs)
       verb.add_option_function<float>(
@@ -185,6 +219,9 @@ CompareOptions compareOptions(const MethodFlags& flags) {
       throw UsageError("--paraboloid-axis 0,0,0 has no direction; write x,y,z or auto");
     options.mapOptions.paraboloidAxisW = glm::normalize(glm::dvec3(axis));
   }
+  options.mapOptions.volumeSize = parseVolumeSize(flags.vsvSize);
+  options.mapOptions.volumeSource = parseVolumeSource(flags.vsvSource);
+  options.mapOptions.volumeFit = parseVolumeFit(flags.vsvFit);
   options.mapSide = flags.mapSize;
   options.mapTexels = flags.mapTexels;
   if (flags.mapTexels < 0)
@@ -198,6 +235,7 @@ CompareOptions compareOptions(const MethodFlags& flags) {
     }
   }
   addUserBiases(flags, options);
+  for (const Parameterization* map : options.maps) checkMeaning(options, *map);
   return options;
 }
 

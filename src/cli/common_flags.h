@@ -35,10 +35,13 @@ struct MethodFlags {
   std::string cubeDepth = "hyperbolic";
   std::string paraboloidAxis = "auto";
   std::string paraboloidRaster = "exact";
+  std::string vsvSize = "1024x1024x512";
+  std::string vsvSource = "direct";
+  std::string vsvFit = "frustum";
   std::map<std::string, float> knobs;  // flag -> value
 };
 // --maps, --biases, --bias-file, --filters, --map-size, --map-texels, --cull, --epsilon-at, those of cube and
-// paraboloid maps, and a flag a knob.
+// paraboloid maps and of shadow volumes, and a flag a knob.
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases);
 // Throws UsageError.
 CompareOptions compareOptions(const MethodFlags& flags);

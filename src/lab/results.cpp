@@ -107,11 +107,12 @@ Json toJson(const Row& row, double gbufferMs) {
   if (!row.epsilonAt.empty()) params["epsilon_at"] = row.epsilonAt;
   params["map_content"] = row.content;
   params["cull"] = row.cull;
+  for (const auto& [name, value] : row.mapParams) params[name] = value;
   Json json;
   json["map"] = row.map;
   json["map_size"] = row.mapSide;
   json["layers"] = row.layers;
-  json["map_texels"] = static_cast<uint64_t>(row.mapSide) * row.mapSide * row.layers;
+  json["map_texels"] = static_cast<uint64_t>(row.mapSide) * row.mapRows * row.layers;
   json["bias"] = row.bias;
   json["params"] = params;
   json["filter"] = row.filter;

@@ -57,11 +57,13 @@ struct Robustness::Place {
   std::unique_ptr<Trial> trial;
   std::string where;
 
+  // `where`: the map's size where `name` is empty.
   Place(const Session& s, Exact e, const CompareOptions& options, const Parameterization& parameterization,
-        int side, std::string name)
-      : session(s), passes(s.device(), s.view()), exact(std::move(e)), where(std::move(name)) {
-    const Fit fit = fitMap(s, parameterization, exact, side, options.mapOptions);
-    maps = std::make_unique<MapSet>(s, passes.map, fit.fitted, exact, options.cull);
+        int side, const MapOptions& mapOptions, const std::string& name)
+      : session(s), passes(s.device(), s.view()), exact(std::move(e)) {
+    const Fit fit = fitMap(s, parameterization, exact, side, mapOptions);
+    where = name.empty() ? mapSizeText(fit.fitted) : name;
+    maps = std::make_unique<MapSet>(s, passes.renderers, fit.fitted, exact, options.cull);
     trial = std::make_unique<Trial>(s, passes, exact, *maps);
   }
 };
@@ -73,10 +75,11 @@ Robustness::Robustness(const Session& session, const Exact& exact, const Compare
   Exact other = traceExact(*otherSession_, exact.source, exact.light);
   if (other.receivers.scored > 0)
     otherCamera_ = std::make_unique<Place>(*otherSession_, std::move(other), options, parameterization, side,
-                                           otherSession_->camera().name);
-  const int half = std::max(side / 2, 2);
+                                           options.mapOptions, otherSession_->camera().name);
+  MapOptions halved = options.mapOptions;
+  halved.volumeSize = halvedSize(halved.volumeSize);
   otherMapSize_ =
-      std::make_unique<Place>(session, exact, options, parameterization, half, fmt::format("{}", half));
+      std::make_unique<Place>(session, exact, options, parameterization, std::max(side / 2, 2), halved, "");
 }
 
 Robustness::~Robustness() = default;

@@ -67,19 +67,23 @@ std::vector<Row> ranked(std::vector<Row> rows) {
 }
 
 std::string comparisonTable(const Comparison& comparison) {
-  size_t knobWidth = 5;
-  for (const Row& row : comparison.rows) knobWidth = std::max(knobWidth, knobText(row).size());
+  const auto mapText = [](const Row& row) { return fmt::format("{} {}", row.map, row.mapSize); };
+  size_t knobWidth = 5, mapWidth = 16;
+  for (const Row& row : comparison.rows) {
+    knobWidth = std::max(knobWidth, knobText(row).size());
+    mapWidth = std::max(mapWidth, mapText(row).size());
+  }
   std::string text = fmt::format(
-      "{:<16} {:<25} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>7} {:>7} {:>9} {:>9}\n",
-      "map", "bias", "filter", "knobs", knobWidth, "agree", "acne", "leak", "edge_sh", "edge_li", "uncovered",
-      "bias error", "rmse", "flip", "build ms", "shade ms");
+      "{:<{}} {:<25} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>7} {:>7} {:>9} {:>9}\n",
+      "map", mapWidth, "bias", "filter", "knobs", knobWidth, "agree", "acne", "leak", "edge_sh", "edge_li",
+      "uncovered", "bias error", "rmse", "flip", "build ms", "shade ms");
   for (const Row& row : ranked(comparison.rows)) {
     text += fmt::format(
-        "{:<16} {:<25} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9.4f}% {:>7.4f} {:>7} {:>9.2f} "
+        "{:<{}} {:<25} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9.4f}% {:>7.4f} {:>7} {:>9.2f} "
         "{:>9.2f}\n",
-        fmt::format("{} {}", row.map, row.mapSide), biasText(row), row.filter, knobText(row), knobWidth,
-        row.agree, row.acne, row.leak, row.edgeShadow, row.edgeLight, row.uncovered, 100.0 * row.biasError(),
-        row.rmse, row.flip ? fmt::format("{:.4f}", *row.flip) : "", row.buildMs, row.shadeMs);
+        mapText(row), mapWidth, biasText(row), row.filter, knobText(row), knobWidth, row.agree, row.acne,
+        row.leak, row.edgeShadow, row.edgeLight, row.uncovered, 100.0 * row.biasError(), row.rmse,
+        row.flip ? fmt::format("{:.4f}", *row.flip) : "", row.buildMs, row.shadeMs);
   }
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <span>
 
@@ -80,6 +81,11 @@ const char* cubeDepthName(CubeDepth depth) {
 }
 const char* paraboloidRasterName(ParaboloidRaster raster) {
   return kParaboloidRasterNames[static_cast<size_t>(raster)];
+}
+VolumeSize halvedSize(const VolumeSize& size) {
+  return {.alpha = std::max(size.alpha / 2, 2),
+          .theta = std::max(size.theta / 2, 2),
+          .phi = std::max(size.phi / 256 * 128, 128)};
 }
 std::string volumeSizeName(const VolumeSize& size) {
   return fmt::format("{}x{}x{}", size.alpha, size.theta, size.phi);

@@ -82,6 +82,8 @@ const char* windowFitName(WindowFit fit);
 const char* warpName(Warp warp);
 const char* cubeDepthName(CubeDepth depth);
 const char* paraboloidRasterName(ParaboloidRaster raster);
+// Half of each side, as far as that is a size.
+VolumeSize halvedSize(const VolumeSize& size);
 std::string volumeSizeName(const VolumeSize& size);
 const char* volumeSourceName(VolumeSource source);
 const char* volumeFitName(VolumeFit fit);

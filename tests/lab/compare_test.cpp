@@ -130,7 +130,7 @@ TEST(Compare, NoPictureHasANanOrAnInfinity) {
       const Fit fit = fitMap(session, *map, exact, 64, {});
       for (const BiasMethod& bias : biasMethods()) {
         const DrawnMap drawn =
-            drawMap(session, passes.map, fit.fitted, exact, bias.content, CullMode::Solids);
+            drawMap(session, passes.renderers, fit.fitted, exact, bias.content, CullMode::Solids);
         const Judged judged = judge(session, passes, drawn, exact, methodFor(session, {}, bias));
         for (const float v : judged.visibility)
           ASSERT_TRUE(v == 0.0f || v == 1.0f) << scene << " " << bias.name;
