@@ -16,8 +16,9 @@ struct SourceCheck {
   // Columns whose ray lies so near a texel's border that transcendental rounding decides on the texel: the
   // neighbour's answer counts too.
   uint64_t betweenTexels = 0;
-  BitsCheck sameMap;        // the GPU's bits against what the occluders found again imply
-  BitsCheck sameOccluders;  // and against what the GPU's own occluders imply: the rule and the scan alone
+  ColumnBoundaries implied;  // of the occluders found again
+  BitsCheck sameMap;         // the GPU's bits against what the occluders found again imply
+  BitsCheck sameOccluders;   // and against what the GPU's own occluders imply: the rule and the scan alone
 };
 // `measured`: the volume's bits.
 SourceCheck checkSource(const gpu::Device& device, const ShadowVolume& volume, const DenseVolume& measured);

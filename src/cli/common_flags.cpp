@@ -140,6 +140,20 @@ Session openSession(const SceneFlags& flags) {
   return Session({.name = flags.device}, flags.setup);
 }
 
+void addVolumeFlags(CLI::App& verb, MethodFlags& flags) {
+  verb.add_option("--vsv-size", flags.vsvSize,
+                  "voxels of a shadow volume, ALPHAxTHETAxPHI; PHI a multiple of 128")
+      ->capture_default_str();
+  verb.add_option(
+          "--vsv-source", flags.vsvSource,
+          "direct: each of a volume's columns meets the scene itself; resample: columns are looked up in a "
+          "cube map of side --map-size")
+      ->capture_default_str();
+  verb.add_option("--vsv-fit", flags.vsvFit,
+                  "frustum: a volume covers what the camera sees; full: the whole sphere")
+      ->capture_default_str();
+}
+
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases) {
   flags.maps = defaultMaps;
   flags.biases = defaultBiases;
@@ -185,17 +199,7 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
                   "exact: each texel's ray decides; vertex: edges are drawn straight, which they are not; "
                   "tessellated: the same with triangles split")
       ->capture_default_str();
-  verb.add_option("--vsv-size", flags.vsvSize,
-                  "voxels of a shadow volume, ALPHAxTHETAxPHI; PHI a multiple of 128")
-      ->capture_default_str();
-  verb.add_option(
-          "--vsv-source", flags.vsvSource,
-          "direct: each of a volume's columns meets the scene itself; resample: columns are looked up in a "
-          "cube map of side --map-size")
-      ->capture_default_str();
-  verb.add_option("--vsv-fit", flags.vsvFit,
-                  "frustum: a volume covers what the camera sees; full: the whole sphere")
-      ->capture_default_str();
+  addVolumeFlags(verb, flags);
   for (const BiasMethod& method : biasMethods())
     for (const BiasKnob& knob : method.knobs)
       verb.add_option_function<float>(

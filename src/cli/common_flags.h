@@ -40,6 +40,8 @@ struct MethodFlags {
   std::string vsvFit = "frustum";
   std::map<std::string, float> knobs;  // flag -> value
 };
+// --vsv-size, --vsv-source, --vsv-fit.
+void addVolumeFlags(CLI::App& verb, MethodFlags& flags);
 // --maps, --biases, --bias-file, --filters, --map-size, --map-texels, --cull, --epsilon-at, those of cube and
 // paraboloid maps and of shadow volumes, and a flag a knob.
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases);

@@ -76,7 +76,10 @@ TEST_F(SourceCheckTest, DefectsOfTheBitsShow) {
     movable += first < 256;
     first = std::min(first + 1, 256);
   }
-  EXPECT_EQ(checkSource(device(), *world.volume, volumeOf(off)).sameOccluders.mismatches, movable);
+  // But where an occluder lies on a centre to within what fused arithmetic may round.
+  const BitsCheck offByOne = checkSource(device(), *world.volume, volumeOf(off)).sameOccluders;
+  EXPECT_EQ(offByOne.mismatches + offByOne.withinTolerance, movable);
+  EXPECT_LT(offByOne.withinTolerance, 10u);
   EXPECT_GT(movable, 1000u);
 
   DenseVolume skipped = measured;
