@@ -155,6 +155,7 @@ SourceCheck checkSource(const gpu::Device& device, const ShadowVolume& volume, c
   return {
       .occluders = checkOccluders(occluders, host.alpha, host.tolerance),
       .betweenTexels = static_cast<uint64_t>(std::ranges::count(host.betweenTexels, static_cast<uint8_t>(1))),
+      .implied = impliedBoundaries(measured.grid, host.alpha),
       .sameMap = checkBits(measured, host.alpha, host.tolerance),
       .sameOccluders = checkBits(measured, occluders, fused)};
 }

@@ -69,10 +69,6 @@ std::vector<LegendEntry> legendEntries(const LabelImage& labels, const Receivers
   return entries;
 }
 
-int textWidth(int scale, const std::string& text) {
-  return stb_easy_font_width(const_cast<char*>(text.c_str())) * scale;
-}
-
 // Lays the legend out in rows; with a canvas it also draws it. Returns the height it takes, pixels.
 int layOutLegend(Image8* canvas, int width, int top, int scale, const std::string& title,
                  const std::vector<LegendEntry>& entries) {
@@ -100,6 +96,10 @@ int layOutLegend(Image8* canvas, int width, int top, int scale, const std::strin
 }
 
 }  // namespace
+
+int textWidth(int scale, const std::string& text) {
+  return stb_easy_font_width(const_cast<char*>(text.c_str())) * scale;
+}
 
 void drawText(Image8& image, int x, int y, int scale, const std::string& text, const glm::u8vec3& color) {
   struct Vertex {

@@ -31,6 +31,7 @@ std::vector<float> truthVisibility(const Receivers& receivers, const Truth& trut
 Image8 depthPicture(const ImageF& metres);
 
 // Text in a built-in vector font of 7 pixels' height times `scale`; (x, y) is its upper left corner.
+int textWidth(int scale, const std::string& text);  // pixels
 void drawText(Image8& image, int x, int y, int scale, const std::string& text, const glm::u8vec3& color);
 
 }  // namespace gnomon

@@ -89,14 +89,36 @@ std::string sliceTitle(const glsl::EpipolarGrid& grid, SliceAxis axis, int index
                      across, down);
 }
 
+// Words in lines that fit the width.
+std::vector<std::string> wrapped(const std::string& text, int scale, int width) {
+  std::vector<std::string> lines(1);
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+    if (textWidth(scale, longer) <= width || lines.back().empty())
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+    begin = end + 1;
+  }
+  return lines;
+}
+
 // The picture with a strip of text below it.
 Image8 withCaption(const Image8& image, const std::string& text) {
   const int scale = std::max(1, image.width / 500);
-  Image8 captioned(image.width, image.height + 14 * scale, 3);
+  const std::vector<std::string> lines = wrapped(text, scale, image.width - 8 * scale);
+  const int lineHeight = 12 * scale;
+  Image8 captioned(image.width, image.height + static_cast<int>(lines.size()) * lineHeight + 2 * scale, 3);
   std::ranges::copy(image.values, captioned.values.begin());
   for (int y = image.height; y < captioned.height; ++y)
     for (int x = 0; x < captioned.width; ++x) setPixel(captioned, x, y, kStrip);
-  drawText(captioned, 4 * scale, image.height + 4 * scale, scale, text, kText);
+  int top = image.height + 4 * scale;
+  for (const std::string& line : lines) {
+    drawText(captioned, 4 * scale, top, scale, line, kText);
+    top += lineHeight;
+  }
   return captioned;
 }
 
@@ -168,15 +190,20 @@ Image8 slicePicture(const DenseVolume& volume, const ColumnBoundaries& exact, Sl
 
 int busiestSlice(const ColumnBoundaries& exact, SliceAxis axis) {
   const glsl::EpipolarGrid& grid = exact.grid;
-  std::vector<int64_t> crossings(sliceSize(grid, axis).count, 0);
-  for (int phi = 0; phi < grid.phiCount; ++phi) {
-    for (int theta = 0; theta < grid.thetaCount; ++theta) {
-      const int first = exact.first[columnIndex(grid, theta, phi)];
-      if (first == 0 || first == grid.alphaCount) continue;
-      ++crossings[axis == SliceAxis::Alpha ? first : axis == SliceAxis::Theta ? theta : phi];
+  const auto first = [&](int theta, int phi) { return exact.first[columnIndex(grid, theta, phi)]; };
+  std::vector<int64_t> weight(sliceSize(grid, axis).count, 0);
+  for (int phi = 1; phi < grid.phiCount; ++phi) {
+    for (int theta = 1; theta < grid.thetaCount; ++theta) {
+      const int here = first(theta, phi);
+      if (axis == SliceAxis::Theta)
+        weight[theta] += std::abs(here - first(theta, phi - 1));
+      else if (axis == SliceAxis::Phi)
+        weight[phi] += std::abs(here - first(theta - 1, phi));
+      else if (here > 0 && here < grid.alphaCount)
+        ++weight[here];
     }
   }
-  return static_cast<int>(std::ranges::max_element(crossings) - crossings.begin());
+  return static_cast<int>(std::ranges::max_element(weight) - weight.begin());
 }
 
 Image8 coordinatePicture(const Image8& camera, const glsl::CameraView& view, const glsl::LightFrame& frame,

@@ -21,8 +21,8 @@ const char* sliceAxisName(SliceAxis axis);  // "alpha", ...
 // plane of constant theta: the light to the left), alpha and theta (a cone of constant phi).
 Image8 slicePicture(const DenseVolume& volume, const ColumnBoundaries& exact, SliceAxis axis, int index);
 
-// The index, of voxels along the axis, whose slice the most boundary passes through: the one worth looking
-// at.
+// The slice worth looking at: the shell with the most boundary on it, the plane or cone along which the
+// boundary moves most.
 int busiestSlice(const ColumnBoundaries& exact, SliceAxis axis);
 
 // Over the camera's picture: planes of constant theta (blue lines through the light), shells of constant

@@ -84,13 +84,8 @@ std::string validationText(const VolumeValidation& v) {
 }
 
 std::string timesText(const VolumeTimes& times, bool validated, bool traced, bool wroteVdb) {
-  std::string text = fmt::format("fit {:.1f}, build {:.1f} (", times.fit, times.build);
-  for (size_t i = 0; i < times.stages.size(); ++i) {
-    std::string name = times.stages[i].name;
-    if (name.starts_with("volume ")) name.erase(0, 7);
-    text += fmt::format("{}{} {:.1f}", i == 0 ? "" : ", ", name, times.stages[i].gpuMs);
-  }
-  text += fmt::format("), read back {:.1f}, grid {:.1f}", times.download, times.grid);
+  std::string text = fmt::format("fit {:.1f}, build {:.1f} (bits {:.1f}), read back {:.1f}, grid {:.1f}",
+                                 times.fit, times.build, times.bits, times.download, times.grid);
   if (traced) text += fmt::format(", trace {:.1f}", times.trace);
   if (validated) text += fmt::format(", same map {:.1f}, exact {:.1f}", times.implied, times.compareExact);
   if (wroteVdb) text += fmt::format(", file {:.1f}", times.vdb);
@@ -140,13 +135,7 @@ void addValidation(Json& json, const VolumeValidation& v) {
 
 Json timesJson(const VolumeResult& result) {
   const VolumeTimes& times = result.times;
-  Json json = {{"fit_ms", times.fit}, {"build_ms", times.build}};
-  for (const gpu::StageTime& stage : times.stages) {
-    std::string key = stage.name + "_ms";
-    for (char& c : key)
-      if (c == ' ') c = '_';
-    json[key] = stage.gpuMs;
-  }
+  Json json = {{"fit_ms", times.fit}, {"build_ms", times.build}, {"bits_ms", times.bits}};
   json["read_back_ms"] = times.download;
   json["grid_ms"] = times.grid;
   if (result.validation) {

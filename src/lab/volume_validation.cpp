@@ -35,15 +35,16 @@ ShadowVolume build(const Session& session, const Passes& passes, const Exact& ex
                    CullMode cull, VolumeTimes& times) {
   ShadowVolume volume(session.device(), {.grid = columns.map.epipolar, .columns = columns},
                       columns.lookedUpIn);
+  const VolumeRenderer& renderer = passes.renderers.volume;
   // The first run compiles; the second is what it costs.
   for (int run = 0; run < 2; ++run) {
-    gpu::Commands commands(session.device(), "shadow volume");
-    passes.renderers.volume.record(commands, passes.renderers.map, session.buffers(), volume, exact.light,
-                                   cull);
-    const gpu::Submission submission = commands.submitAndWait();
-    times.build = submission.wallMs;
-    times.stages = submission.stages;
+    gpu::Commands all(session.device(), "shadow volume");
+    renderer.record(all, passes.renderers.map, session.buffers(), volume, exact.light, cull);
+    times.build = all.submitAndWait().wallMs;
   }
+  gpu::Commands bits(session.device(), "shadow volume's bits");
+  renderer.recordBits(bits, volume, Voxelization::Fused);
+  times.bits = bits.submitAndWait().wallMs;
   return volume;
 }
 
