@@ -82,6 +82,17 @@ TEST_F(CliTest, EveryBiasKnobIsAFlag) {
   EXPECT_EQ(rows[1].at("params").at("cull"), "none");
 }
 
+TEST_F(CliTest, AShadowVolumeLeavesOutWhatMeansNothingOnItAndSaysSo) {
+  const Result result = run(
+      "compare contact --maps vsv --biases none,slope,adaptive --vsv-size 64x64x128 --size 32 --repeats 1");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_NE(result.err.find("leaves out slope"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("vsv 64x64x128"), std::string::npos) << result.out;
+  const Result tooLarge = run("compare contact --maps vsv --biases none --vsv-size 4096x4096x4096 --size 32");
+  EXPECT_EQ(tooLarge.exitCode, 1);
+  EXPECT_NE(tooLarge.err.find("would fit"), std::string::npos) << tooLarge.err;
+}
+
 TEST_F(CliTest, MapTexelsPicksTheSide) {
   const Result result =
       run("compare corner --biases none --map-texels 10000 --size 32 --repeats 1 --json @/r.json");
@@ -102,6 +113,13 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("compare", 2, "SCENE");
   expectMistake("compare contact --maps disc", 2, "--maps disc: no such map");
   expectMistake("compare contact --biases adaptve", 2, "adaptve: no such bias");
+  expectMistake("compare contact --maps vsv --biases slope,dual", 2,
+                "--maps vsv takes none of these --biases; choose from none, constant, adaptive");
+  expectMistake("compare contact --maps vsv --biases none --filters bilinear", 2,
+                "--maps vsv takes no filter");
+  expectMistake("compare contact --maps vsv --vsv-size 64x64x100", 2, "--vsv-size 64x64x100");
+  expectMistake("compare contact --maps vsv --vsv-source cube", 2, "--vsv-source cube");
+  expectMistake("compare contact --maps vsv --vsv-fit tight", 2, "--vsv-fit tight");
   expectMistake("compare contact --size 0", 2, "--size 0");
   expectMistake("compare contact --map-size 1", 2, "2..16384");
   expectMistake("compare contact --map-size 64 --map-texels 4096", 2, "excludes");
