@@ -1,4 +1,5 @@
-// Bits of a shadow volume of its columns' occluders: one invocation a column of texels, 128 columns of voxels.
+// Bits of a shadow volume of its columns' occluders: one invocation a column of texels, 128 columns of voxels, so that no two write
+// one texel and no atomics are needed.
 // kStep (kVoxelize*): seed and scan are passes of their own, or one.
 #include "shared/map.glsl"
 #include "shared/volume.glsl"
@@ -9,12 +10,6 @@ layout(constant_id = 0) const int kStep = kVoxelizeFused;
 
 layout(scalar, binding = kBindOccluders) readonly buffer Occluders { float occluders[]; };
 layout(scalar, binding = kBindBits) buffer Bits { uvec4 texels[]; };
-
-uvec4 bitOf(int j) {
-  uint bit = 1u << uint(j & 31);
-  int word = j >> 5;
-  return uvec4(word == 0 ? bit : 0u, word == 1 ? bit : 0u, word == 2 ? bit : 0u, word == 3 ? bit : 0u);
-}
 
 void main() {
   EpipolarGrid grid = shadowMap.epipolar;
@@ -40,7 +35,7 @@ void main() {
   if (kStep != kVoxelizeScan) {
     for (int j = 0; j < bitCount; ++j) {
       int i = firstOccluded(grid, occluders[column + j * grid.thetaCount]);
-      if (i < grid.alphaCount) texels[first + uint(i) * stride] |= bitOf(j);
+      if (i < grid.alphaCount) texels[first + uint(i) * stride][j >> 5] |= 1u << uint(j & 31);
     }
   }
   if (kStep == kVoxelizeScan) {

@@ -1,5 +1,5 @@
 #pragma once
-// What `gnomon vsv` found, as an aligned table for a terminal and as JSON (docs/vsv.md describes both).
+// What `gnomon vsv` found, as an aligned table for a terminal and as JSON (docs/volume_check.md describes both).
 
 #include "lab/volume_validation.h"
 

@@ -5,7 +5,9 @@
 
 #include "shared/volume.glsl"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace gnomon {
 namespace {
@@ -68,6 +70,40 @@ TEST_F(VolumeTest, TheScanIsTheSerialOneWhateverTheWay) {
       EXPECT_EQ(bitsBy(volume, Voxelization::Passes), expected) << volumeSizeName(size) << ", " << present;
     }
   }
+}
+
+double medianOf(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+// At the default size, with what each way costs beside a copy of as many bytes, all interleaved.
+TEST_F(VolumeTest, BothWaysAgreeAtTheDefaultSize) {
+  const VolumeWorld w = test::buildVolume(device(), {.scene = "atrium", .size = {}});
+  const ShadowVolume& volume = *w.volume;
+  const gpu::Buffer copied(device(), {.name = "copy", .size = volume.bits().size()});
+  const VolumeRenderer renderer(device());
+  std::vector<double> copy, fused, passes;
+  const auto time = [&](const std::function<void(gpu::Commands&)>& recorded) {
+    gpu::Commands commands(device(), "timed");
+    recorded(commands);
+    return commands.submitAndWait().wallMs;
+  };
+  std::vector<glm::uvec4> byPasses;
+  for (int round = 0; round < 9; ++round) {
+    copy.push_back(time([&](auto& c) { c.copy(volume.bits(), copied, copied.size()); }));
+    passes.push_back(time([&](auto& c) { renderer.recordBits(c, volume, Voxelization::Passes); }));
+    if (round == 0) byPasses = downloadBits(device(), volume).texels();
+    fused.push_back(time([&](auto& c) { renderer.recordBits(c, volume, Voxelization::Fused); }));
+  }
+  EXPECT_EQ(downloadBits(device(), volume).texels(), byPasses);
+  const auto ratio = [&](std::vector<double> times) {  // of each round, since the machine's speed changes
+    for (size_t i = 0; i < times.size(); ++i) times[i] /= copy[i];
+    return medianOf(times);
+  };
+  std::printf("%g MiB: copy %.2f ms, fused %.2f ms (%.2f copies), passes %.2f ms (%.2f copies)\n",
+              static_cast<double>(copied.size()) / (1 << 20), medianOf(copy), medianOf(fused), ratio(fused),
+              medianOf(passes), ratio(passes));
 }
 
 TEST_F(VolumeTest, BitsOfASceneObeyTheRuleAndNeverFallAlongAlpha) {
