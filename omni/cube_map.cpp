@@ -68,6 +68,7 @@ FittedMap makeCubeMap(const glm::dvec3& lightW, CubeDepth depth, double zNear, d
   fitted.map = {.kind = radial ? glsl::kMapCubeRadial : glsl::kMapCube,
                 .layerCount = 6,
                 .side = side,
+                .rows = side,
                 .sceneScale = sceneScale,
                 .zNear = fitted.zNear,
                 .zFar = fitted.zFar};

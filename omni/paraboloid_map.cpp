@@ -93,6 +93,7 @@ FittedMap makeParaboloidMap(const glm::dvec3& lightW, const glm::dvec3& axisW, P
   fitted.map = {.kind = glsl::kMapParaboloid,
                 .layerCount = 2,
                 .side = side,
+                .rows = side,
                 .sceneScale = sceneScale,
                 .zNear = fitted.zNear,
                 .zFar = fitted.zFar};

@@ -24,6 +24,8 @@ layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagnosis diagnosis[]; };
 
+#include "shadow/receiver_fetch.glsl"
+
 ShadowMap specializedMap() {
   ShadowMap map = shadowMap;
   map.kind = kMapKind;
@@ -44,7 +46,7 @@ Tap fetchTap(ShadowMap map, int layer, ivec2 texel) {
 
 // The share of the filter's taps that are lit. Taps that no layer holds count for nothing.
 float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2 pixel) {
-  vec2 position = point.uv * float(map.side);
+  vec2 position = point.uv * mapTexelCounts(map);
   uint seed = pixelSeed(pixel);
   float lit = 0.0f;
   float weights = 0.0f;
@@ -76,14 +78,9 @@ float plainVisibility(ShadowMap map, Receiver receiver, MapPoint point, inout Pi
 // Empty pixels and those beyond the map are lit; a surface that faces away is not.
 float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosis) {
   if (id.instancePlusOne == 0u) return 1.0f;
-  SurfacePoint surface = fetchSurface(shade.camera, pixel, id);
-  float lightSide = dot(surface.normal, towardsLight(shade, surface.position));
-  float cameraSide = dot(surface.normal, shade.camera.eyeW - surface.position);
-  if (!(lightSide * cameraSide > 0.0f)) return 0.0f;
-  pixelDiagnosis.flags = kPixelShaded;
   Receiver receiver;
-  receiver.posL = lightFromWorld(lightFrame, surface.position);
-  receiver.normalL = directionFromWorld(lightFrame, lightSide > 0.0f ? surface.normal : -surface.normal);
+  if (!fetchReceiver(pixel, id, receiver)) return 0.0f;
+  pixelDiagnosis.flags = kPixelShaded;
   ShadowMap map = specializedMap();
   receiver = biasReceiver(kMethod, map, shade.bias, receiver);
   MapPoint point = mapProject(map, receiver.posL);

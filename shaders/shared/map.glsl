@@ -1,4 +1,4 @@
-// A shadow map is an array of square layers and four functions (mapProject, mapTexelRay, mapDepth, mapDepthSlope) plus
+// A shadow map is an array of layers and four functions (mapProject, mapTexelRay, mapDepth, mapDepthSlope) plus
 // the inverse of depth along a ray. Everything else, biases, filters, labels, knows maps only through these.
 //
 // Frame: L, the light's. Its origin is the light (for a directional light a point near the scene), units are metres.
@@ -11,6 +11,7 @@
 #ifndef GNOMON_MAP_GLSL
 #define GNOMON_MAP_GLSL
 
+#include "shared/epipolar.glsl"
 #include "shared/geometry.glsl"
 #include "shared/lang.glsl"
 #include "shared/light_frame.glsl"
@@ -23,6 +24,7 @@ const int kMapPlanar = 0;      // spot and directional: one clipFromLight matrix
 const int kMapCube = 1;        // six faces, hyperbolic depth: z/w of the face's own projection
 const int kMapCubeRadial = 2;  // six faces, depth linear in the distance from the light
 const int kMapParaboloid = 3;  // two hemispheres, depth linear in the distance from the light
+const int kMapEpipolar = 4;    // one layer of light rays (theta, phi), depth grows with alpha: the columns of a shadow volume
 const int kMaxMapLayers = 6;
 
 struct MapLayer {
@@ -33,12 +35,14 @@ struct MapLayer {
 struct ShadowMap {
   int kind;  // kMap*
   int layerCount;
-  int side;          // texels
+  int side;          // texels along u
+  int rows;          // texels along v: as many, but in epipolar maps
   float sceneScale;  // metres: the diagonal of the scene's bounds
   float zNear;       // metres, where depth is 0 and 1: along a cube face's axis, or from the light where depth is radial;
   float zFar;        // a planar map has them in its matrices
   vec2 clipDepth;    // cube faces: z_clip = m * clipDepth.x + clipDepth.y; in the buffer, because a shader's optimizer that sees what
                      // it is made of factors the sum, and then the bits are no longer the rasterizer's
+  EpipolarGrid epipolar;
   GNOMON_CPP_ONLY(MapLayer mapLayers[kMaxMapLayers];)
 };
 
@@ -63,6 +67,7 @@ struct MapPoint {
 GNOMON_SHARED_END
 
 #include "shared/cube_map.glsl"
+#include "shared/epipolar_map.glsl"
 #include "shared/paraboloid_map.glsl"
 #include "shared/planar_map.glsl"
 
@@ -78,6 +83,8 @@ GNOMON_FN MapPoint mapProject(ShadowMap map, vec3 posL) {
       return cubeProject(posL);
     case kMapParaboloid:
       return paraboloidProject(posL);
+    case kMapEpipolar:
+      return epipolarMapProject(map, posL);
   }
   MapPoint none;
   none.layer = 0;
@@ -96,6 +103,8 @@ GNOMON_FN Ray mapTexelRay(ShadowMap map, int layer, vec2 uv) {
       return cubeTexelRay(map, layer, uv);
     case kMapParaboloid:
       return paraboloidTexelRay(map, layer, uv);
+    case kMapEpipolar:
+      return epipolarMapTexelRay(map, uv);
   }
   Ray none;
   none.origin = vec3(0.0f, 0.0f, 0.0f);
@@ -113,6 +122,8 @@ GNOMON_FN float mapDepth(ShadowMap map, int layer, vec3 posL) {
       return cubeDepth(map, layer, posL);
     case kMapParaboloid:
       return paraboloidDepth(map, posL);
+    case kMapEpipolar:
+      return epipolarMapDepth(map, posL);
   }
   return 0.0f;
 }
@@ -127,6 +138,8 @@ GNOMON_FN float mapDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) 
       return cubeDepthSlope(map, layer, posL, rayDir);
     case kMapParaboloid:
       return paraboloidDepthSlope(map);
+    case kMapEpipolar:
+      return epipolarMapDepthSlope(map, posL, rayDir);
   }
   return 0.0f;
 }
@@ -141,24 +154,27 @@ GNOMON_FN float mapDistance(ShadowMap map, int layer, Ray ray, float depth) {
       return cubeDistance(map, layer, ray, depth);
     case kMapParaboloid:
       return paraboloidDistance(map, depth);
+    case kMapEpipolar:
+      return epipolarMapDistance(map, ray, depth);
   }
   return 0.0f;
 }
 
+GNOMON_FN vec2 mapTexelCounts(ShadowMap map) { return vec2(float(map.side), float(map.rows)); }
+
 // The texel that holds uv; uv = 1 belongs to the last one.
 GNOMON_FN ivec2 mapTexel(ShadowMap map, vec2 uv) {
-  float side = float(map.side);
-  return ivec2(clamp(int(floor(uv.x * side)), 0, map.side - 1), clamp(int(floor(uv.y * side)), 0, map.side - 1));
+  return ivec2(clamp(int(floor(uv.x * float(map.side))), 0, map.side - 1), clamp(int(floor(uv.y * float(map.rows))), 0, map.rows - 1));
 }
 
 GNOMON_FN vec2 mapTexelCenter(ShadowMap map, ivec2 texel) {
-  return vec2((float(texel.x) + 0.5f) / float(map.side), (float(texel.y) + 0.5f) / float(map.side));
+  return vec2((float(texel.x) + 0.5f) / float(map.side), (float(texel.y) + 0.5f) / float(map.rows));
 }
 
-// Whether a layer draws this texel: it lies on its square, and where the layer is less than a square, on that.
+// Whether a layer draws this texel: it lies on its rectangle, and where the layer is less than that, within it.
 GNOMON_FN bool mapHoldsTexel(ShadowMap map, int layer, ivec2 texel) {
   if (map.kind == kMapParaboloid && !paraboloidHoldsTexel(map, texel)) return false;
-  return layer < map.layerCount && texel.x >= 0 && texel.y >= 0 && texel.x < map.side && texel.y < map.side;
+  return layer < map.layerCount && texel.x >= 0 && texel.y >= 0 && texel.x < map.side && texel.y < map.rows;
 }
 
 struct MapTexel {
@@ -169,8 +185,8 @@ struct MapTexel {
 
 // The texel that a look-up for a receiver at posL means, which may lie beyond its layer's edge: there the ray of the missing
 // texel, by the same formula continued, is followed to where it passes the receiver, and that point looked up in whatever
-// layer holds it. So a filter that crosses a cube's edge, a paraboloid's rim or a cascade's border reads what the light
-// sees there.
+// layer holds it. So a filter that crosses a cube's edge, a paraboloid's rim, a cascade's border or theta's seam reads what
+// the light sees there.
 GNOMON_FN MapTexel mapTexelAcross(ShadowMap map, int layer, ivec2 texel, vec3 posL) {
   MapTexel found;
   found.layer = layer;
@@ -189,8 +205,8 @@ GNOMON_FN MapTexel mapTexelAcross(ShadowMap map, int layer, ivec2 texel, vec3 po
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::ShadowMap) == 32 + 6 * 128);
-static_assert(offsetof(gnomon::glsl::ShadowMap, mapLayers) == 32);
-static_assert(sizeof(gnomon::glsl::MapUniforms) == 48 + 800);
+static_assert(sizeof(gnomon::glsl::ShadowMap) == 76 + 6 * 128);
+static_assert(offsetof(gnomon::glsl::ShadowMap, mapLayers) == 76);
+static_assert(sizeof(gnomon::glsl::MapUniforms) == 48 + 844);
 #endif
 #endif

@@ -6,7 +6,9 @@
 #include "gpu/shader_compiler.h"
 #include "lab/maps.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include <fmt/format.h>
@@ -93,6 +95,27 @@ void addFitFlags(CLI::App& verb, MethodFlags& flags) {
       ->capture_default_str();
 }
 
+// What means nothing on a map is left out there, and said so; where nothing is left, refused.
+void checkMeaning(const CompareOptions& options, const Parameterization& map) {
+  const CompareOptions own = optionsFor(options, map);
+  std::string biases, left;
+  for (const BiasMethod& method : biasMethods())
+    if (map.answers(method)) biases += (biases.empty() ? "" : ", ") + std::string(method.name);
+  if (own.biases.empty())
+    throw UsageError(
+        fmt::format("--maps {} takes none of these --biases; choose from {}", map.name(), biases));
+  if (own.filters.empty())
+    throw UsageError(fmt::format("--maps {} takes no filter; add --filters none", map.name()));
+  for (const BiasMethod* bias : options.biases)
+    if (std::ranges::find(own.biases, bias) == own.biases.end())
+      left += (left.empty() ? "" : ", ") + std::string(bias->name);
+  for (const Filter* filter : options.filters)
+    if (std::ranges::find(own.filters, filter) == own.filters.end())
+      left += (left.empty() ? "" : ", ") + std::string(filter->name);
+  if (!left.empty())
+    fmt::print(stderr, "gnomon: {} has no depths to compare, so it leaves out {}\n", map.name(), left);
+}
+
 }  // namespace
 
 void setCommandLine(int argc, char** argv) {
@@ -141,6 +164,20 @@ Session openSession(const SceneFlags& flags) {
   return Session({.name = flags.device}, flags.setup);
 }
 
+void addVolumeFlags(CLI::App& verb, MethodFlags& flags) {
+  verb.add_option("--vsv-size", flags.vsvSize,
+                  "voxels of a shadow volume, ALPHAxTHETAxPHI; PHI a multiple of 128")
+      ->capture_default_str();
+  verb.add_option(
+          "--vsv-source", flags.vsvSource,
+          "direct: each of a volume's columns meets the scene itself; resample: columns are looked up in a "
+          "cube map of side --map-size")
+      ->capture_default_str();
+  verb.add_option("--vsv-fit", flags.vsvFit,
+                  "frustum: a volume covers what the camera sees; full: the whole sphere")
+      ->capture_default_str();
+}
+
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases) {
   flags.maps = defaultMaps;
   flags.biases = defaultBiases;
@@ -186,6 +223,7 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
                   "exact: each texel's ray decides; vertex: edges are drawn straight, which they are not")
       ->capture_default_str();
   addFitFlags(verb, flags);
+  addVolumeFlags(verb, flags);
   for (const BiasMethod& method : biasMethods())
     for (const BiasKnob& knob : method.knobs)
       verb.add_option_function<float>(
@@ -214,6 +252,9 @@ CompareOptions compareOptions(const MethodFlags& flags) {
   options.mapOptions.warp = parseWarp(flags.warp);
   options.mapOptions.cascades = flags.cascades;
   checkMapOptions(options.mapOptions);
+  options.mapOptions.volumeSize = parseVolumeSize(flags.vsvSize);
+  options.mapOptions.volumeSource = parseVolumeSource(flags.vsvSource);
+  options.mapOptions.volumeFit = parseVolumeFit(flags.vsvFit);
   options.mapSide = flags.mapSize;
   options.mapTexels = flags.mapTexels;
   if (flags.mapTexels < 0)
@@ -227,6 +268,7 @@ CompareOptions compareOptions(const MethodFlags& flags) {
     }
   }
   addUserBiases(flags, options);
+  for (const Parameterization* map : options.maps) checkMeaning(options, *map);
   return options;
 }
 

@@ -39,8 +39,13 @@ struct MethodFlags {
   std::string snap = "on";
   std::string warp = "none";
   int cascades = 1;
+  std::string vsvSize = "1024x1024x512";
+  std::string vsvSource = "direct";
+  std::string vsvFit = "frustum";
   std::map<std::string, float> knobs;  // flag -> value
 };
+// --vsv-size, --vsv-source, --vsv-fit.
+void addVolumeFlags(CLI::App& verb, MethodFlags& flags);
 // --maps, --biases, --bias-file, --filters, --map-size, --map-texels, --cull, --epsilon-at, what concerns one
 // kind of map only, and a flag a knob.
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases);

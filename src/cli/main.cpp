@@ -1,4 +1,5 @@
-// gnomon: exit code 0 done, 1 the world failed, 2 wrong usage, 3 a --fail-if was crossed.
+// gnomon: exit code 0 done, 1 the world failed, 2 wrong usage, 3 a --fail-if was crossed, or vsv --validate
+// found a volume that its source does not imply.
 
 #include "base/error.h"
 #include "cli/verbs.h"
@@ -22,16 +23,14 @@ int parseAndRun(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done; 1 the world failed (file, device, memory); 2 wrong usage; 3 a --fail-if was "
-      "crossed.\n"
+      "crossed, or vsv --validate found a wrong voxel.\n"
       "Environment: GNOMON_DEVICE as --device, GNOMON_VALIDATION=1 turns the validation layers on, "
       "GNOMON_CACHE_DIR holds "
       "compiled shaders (empty: no cache).");
   app.option_defaults()->always_capture_default(false);
-  std::vector<std::pair<const char*, Run>> verbs = {{"compare", addCompareVerb(app)},
-                                                    {"render", addRenderVerb(app)},
-                                                    {"report", addReportVerb(app)},
-                                                    {"scene", addSceneVerb(app)},
-                                                    {"info", addInfoVerb(app)}};
+  std::vector<std::pair<const char*, Run>> verbs = {
+      {"compare", addCompareVerb(app)}, {"render", addRenderVerb(app)}, {"report", addReportVerb(app)},
+      {"vsv", addVsvVerb(app)},         {"scene", addSceneVerb(app)},   {"info", addInfoVerb(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

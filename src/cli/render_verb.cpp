@@ -63,13 +63,13 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
         densityPicture(exact.receivers, densities, title), oneChannel(session, densities), {"texels_per_m2"}};
   }
   const bool layers = show == "second-depth" || show == "layer-gap";
-  const DrawnMap map = drawMap(session, passes.map, fitted, exact,
+  const DrawnMap map = drawMap(session, passes.renderers, fitted, exact,
                                layers ? MapContent::TwoLayers : method.bias->content, options.cull);
   if (layers || show == "depth") return depthImage(session, map, show);
   if (show == "labels") {
     const Judged judged = judge(session, passes, map, exact, method);
-    const std::string title =
-        fmt::format("{} {}, {} x {} texels", parameterization.name(), method.bias->name, side, side);
+    const std::string title = fmt::format("{} {}, {} x {} texels", parameterization.name(), method.bias->name,
+                                          fitted.map.side, fitted.map.rows);
     std::vector<float> numbers;
     for (const Label label : judged.labels.labels) numbers.push_back(static_cast<float>(label));
     return {labelPicture(exact.receivers, exact.truth, judged.labels, title),

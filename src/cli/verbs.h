@@ -19,6 +19,7 @@ void setCommandLine(int argc, char** argv);
 Run addCompareVerb(CLI::App& app);
 Run addRenderVerb(CLI::App& app);
 Run addReportVerb(CLI::App& app);
+Run addVsvVerb(CLI::App& app);
 Run addSceneVerb(CLI::App& app);
 Run addInfoVerb(CLI::App& app);
 

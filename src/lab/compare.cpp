@@ -104,7 +104,7 @@ class MapComparison {
     summary.zFar = fit.fitted.zFar;
     summary.fitNote = fit.fitted.note;
     summary.fitMs = fit.ms;
-    maps_ = std::make_unique<MapSet>(session_, passes_.map, fit.fitted, exact_, options_.cull);
+    maps_ = std::make_unique<MapSet>(session_, passes_.renderers, fit.fitted, exact_, options_.cull);
     for (const Filter* filter : options_.filters) filteredTruth(*filter);
 
     std::vector<Entry> entries = chooseEntries();
@@ -167,6 +167,9 @@ class MapComparison {
       row.map = parameterization_.name();
       row.light = source_.name;
       row.mapSide = map.fitted.map.side;
+      row.mapRows = map.fitted.map.rows;
+      row.mapSize = mapSizeText(map.fitted);
+      if (map.volume) row.mapParams = volumeParams();
       row.layers = map.fitted.map.layerCount;
       row.cull = cullModeName(options_.cull);
       row.mapOptions = options_.mapOptions;
@@ -194,9 +197,20 @@ class MapComparison {
     names.labelStem = fmt::format("{}/{}{}", folder_, row.bias, row.tuning ? ".tuned" : "");
     names.stem = names.labelStem + (row.filter == "none" ? "" : "." + row.filter);
     names.title = fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "",
-                              row.mapSide, row.mapSide);
+                              row.mapSide, row.mapRows);
     names.writesLabels = row.filter == options_.filters.front()->name;
     return names;
+  }
+
+  std::vector<std::pair<std::string, std::string>> volumeParams() const {
+    const MapOptions& map = options_.mapOptions;
+    std::vector<std::pair<std::string, std::string>> params = {
+        {"vsv_size", volumeSizeName(map.volumeSize)},
+        {"vsv_source", volumeSourceName(map.volumeSource)},
+        {"vsv_fit", volumeFitName(map.volumeFit)}};
+    if (map.volumeSource == VolumeSource::Resample)
+      params.emplace_back("cube_size", fmt::format("{}", maps_->fitted().lookedUpIn->map.side));
+    return params;
   }
 
   // Rounds run one after another through all rows, so that a machine that slows down slows all of them. A
@@ -305,6 +319,20 @@ int stepsPerMap(const CompareOptions& options) {
 
 }  // namespace
 
+CompareOptions optionsFor(const CompareOptions& options, const Parameterization& map) {
+  CompareOptions own = options;
+  std::erase_if(own.biases, [&](const BiasMethod* bias) { return !map.answers(*bias); });
+  std::erase_if(own.filters,
+                [&](const Filter* filter) { return filter->id != glsl::kFilterNone && !map.takesFilters(); });
+  return own;
+}
+
+std::string mapSizeText(const FittedMap& fitted) {
+  const glsl::EpipolarGrid& grid = fitted.map.epipolar;
+  if (fitted.map.kind != glsl::kMapEpipolar) return fmt::format("{}", fitted.map.side);
+  return volumeSizeName({.alpha = grid.alphaCount, .theta = grid.thetaCount, .phi = grid.phiCount});
+}
+
 int mapSideOf(const CompareOptions& options, const Parameterization& map) {
   int side = options.mapSide;
   if (options.mapTexels != 0) {
@@ -338,17 +366,23 @@ Method methodFor(const Session& session, const CompareOptions& options, const Bi
 DepthImages depthInMetres(const Session& session, const DrawnMap& map) {
   const glsl::ShadowMap& shape = map.fitted.map;
   const bool positional = map.fitted.positional;
-  const std::vector<float> first = gpu::downloadAs<float>(session.device(), map.image->depth());
+  std::vector<float> first;
+  if (map.volume) {
+    first = gpu::downloadAs<float>(session.device(), map.volume->occluders());
+    for (float& alpha : first) alpha = std::min(alpha / glsl::alphaUpper(shape.epipolar), 1.0f);
+  } else {
+    first = gpu::downloadAs<float>(session.device(), map.image->depth());
+  }
   std::vector<float> second;
-  if (map.image->content() == MapContent::TwoLayers)
+  if (map.image && map.image->content() == MapContent::TwoLayers)
     second = gpu::downloadAs<float>(session.device(), map.image->secondDepth());
-  const ImageF nothing(shape.side * shape.layerCount, shape.side, 1, std::numeric_limits<float>::infinity());
+  const ImageF nothing(shape.side * shape.layerCount, shape.rows, 1, std::numeric_limits<float>::infinity());
   DepthImages images{.first = nothing};
   if (!second.empty()) images.second = images.gap = nothing;
   for (int layer = 0; layer < shape.layerCount; ++layer) {
-    for (int y = 0; y < shape.side; ++y) {
+    for (int y = 0; y < shape.rows; ++y) {
       for (int x = 0; x < shape.side; ++x) {
-        const size_t texel = (static_cast<size_t>(layer) * shape.side + y) * shape.side + x;
+        const size_t texel = (static_cast<size_t>(layer) * shape.rows + y) * shape.side + x;
         const glsl::Ray ray = glsl::mapTexelRay(shape, layer, glsl::mapTexelCenter(shape, {x, y}));
         const auto along = [&](float depth) { return glsl::mapDistance(shape, layer, ray, depth); };
         const auto fromLight = [&](float depth) {
@@ -383,10 +417,13 @@ Comparison compare(const Session& session, const CompareOptions& options) {
     for (size_t i = 0; i < lights.size(); ++i) jobs.push_back({map, lights[i], i});
   }
   const bool severalLights = jobs.size() > options.maps.size();
-  Progress progress("compare", static_cast<int>(jobs.size()) * stepsPerMap(options));
+  int steps = 0;
+  for (const Job& job : jobs) steps += stepsPerMap(optionsFor(options, *job.map));
+  Progress progress("compare", steps);
   for (const auto& [map, light, number] : jobs) {
+    const CompareOptions own = optionsFor(options, *map);
     const std::string folder = severalLights ? fmt::format("{}/light{}", map->name(), number) : map->name();
-    MapComparison(session, options, passes, *map, light, folder, progress).run(comparison);
+    MapComparison(session, own, passes, *map, light, folder, progress).run(comparison);
   }
   if (comparison.rows.empty()) computeExact(session, *options.maps.front());  // says why
   if (severalLights) addSums(comparison);

@@ -34,6 +34,12 @@ struct CompareOptions {
   std::filesystem::path outDir;  // empty: no pictures
 };
 
+// The options with the biases and filters that mean something on this map.
+CompareOptions optionsFor(const CompareOptions& options, const Parameterization& map);
+
+// "1024" texels a side, or a volume's "1024x1024x512" voxels.
+std::string mapSizeText(const FittedMap& fitted);
+
 // The side of a map's layers, texels. Throws UsageError outside 2..16384.
 int mapSideOf(const CompareOptions& options, const Parameterization& map);
 
@@ -70,8 +76,10 @@ struct Row {
   std::string map;
   std::string light;   // its name
   bool isSum = false;  // of the same method's rows over all lights: counts and times added, no pictures
-  int mapSide = 0;
+  int mapSide = 0, mapRows = 0;  // texels along u and v of a layer
   int layers = 0;
+  std::string mapSize;                                         // mapSizeText
+  std::vector<std::pair<std::string, std::string>> mapParams;  // of a volume: size, source, fit
   std::string bias;
   std::vector<std::pair<std::string, double>> knobs;  // name -> value in its unit
   std::vector<std::string> knobUnits;

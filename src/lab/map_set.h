@@ -10,9 +10,9 @@ namespace gnomon {
 // Maps of one fit, by what they hold; drawn when first asked for.
 class MapSet {
  public:
-  MapSet(const Session& session, const MapRenderer& renderer, const FittedMap& fitted, const Exact& exact,
+  MapSet(const Session& session, const Renderers& renderers, const FittedMap& fitted, const Exact& exact,
          CullMode cull)
-      : session_(session), renderer_(renderer), fitted_(fitted), exact_(exact), cull_(cull) {}
+      : session_(session), renderers_(renderers), fitted_(fitted), exact_(exact), cull_(cull) {}
 
   const DrawnMap& with(MapContent content);
   // Wall clock of drawing it once more, milliseconds.
@@ -21,7 +21,7 @@ class MapSet {
 
  private:
   const Session& session_;
-  const MapRenderer& renderer_;
+  const Renderers& renderers_;
   const FittedMap fitted_;
   const Exact& exact_;
   CullMode cull_;

@@ -4,6 +4,7 @@
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
 #include "shadow/planar_map.h"
+#include "vsv/volume_parameterization.h"
 
 #include <algorithm>
 #include <sstream>
@@ -17,6 +18,7 @@ const std::vector<const Parameterization*>& parameterizations() {
     std::vector<const Parameterization*> maps = planarParameterizations();
     maps.push_back(&cubeParameterization());
     maps.push_back(&paraboloidParameterization());
+    maps.push_back(&volumeParameterization());
     return maps;
   }();
   return all;

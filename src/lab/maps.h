@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-// Planar maps first, then those of omni/.
+// Planar maps first, then those of omni/, then the shadow volume.
 const std::vector<const Parameterization*>& parameterizations();
 
 // "a,b" to parameterizations. Throws UsageError that lists the names.

@@ -72,10 +72,6 @@ std::vector<LegendEntry> legendEntries(const LabelImage& labels, const Receivers
   return entries;
 }
 
-int textWidth(int scale, const std::string& text) {
-  return stb_easy_font_width(const_cast<char*>(text.c_str())) * scale;
-}
-
 // Lays the legend out in rows; with a canvas it also draws it. Returns the height it takes, pixels.
 int layOutLegend(Image8* canvas, int width, int top, int scale, const std::string& title,
                  const std::vector<LegendEntry>& entries) {
@@ -171,6 +167,10 @@ Image8 densityPicture(const Receivers& receivers, std::span<const float> densiti
            fmt::format("texels per square metre; median {:.4g}", medianDensity(densities)), kText);
   drawRamp(image, receivers.height + 26 * scale, scale, decades);
   return image;
+}
+
+int textWidth(int scale, const std::string& text) {
+  return stb_easy_font_width(const_cast<char*>(text.c_str())) * scale;
 }
 
 void drawText(Image8& image, int x, int y, int scale, const std::string& text, const glm::u8vec3& color) {

@@ -36,6 +36,7 @@ Image8 depthPicture(const ImageF& metres);
 Image8 densityPicture(const Receivers& receivers, std::span<const float> densities, const std::string& title);
 
 // Text in a built-in vector font of 7 pixels' height times `scale`; (x, y) is its upper left corner.
+int textWidth(int scale, const std::string& text);  // pixels
 void drawText(Image8& image, int x, int y, int scale, const std::string& text, const glm::u8vec3& color);
 
 }  // namespace gnomon

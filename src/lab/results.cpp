@@ -116,13 +116,14 @@ Json toJson(const Row& row, double gbufferMs) {
   params["snap"] = snaps(row.mapOptions) ? "on" : "off";
   params["warp"] = warpName(row.mapOptions.warp);
   params["cascades"] = row.mapOptions.cascades;
+  for (const auto& [name, value] : row.mapParams) params[name] = value;
   Json json;
   json["map"] = row.map;
   json["light"] = row.light;
   json["sum"] = row.isSum;
   json["map_size"] = row.mapSide;
   json["layers"] = row.layers;
-  json["map_texels"] = static_cast<uint64_t>(row.mapSide) * row.mapSide * row.layers;
+  json["map_texels"] = static_cast<uint64_t>(row.mapSide) * row.mapRows * row.layers;
   json["bias"] = row.bias;
   json["params"] = params;
   json["filter"] = row.filter;

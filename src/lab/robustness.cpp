@@ -57,10 +57,10 @@ struct Robustness::Place {
   std::unique_ptr<Trial> trial;
 
   Place(const Session& s, Exact e, const CompareOptions& options, const Parameterization& parameterization,
-        int side)
+        int side, const MapOptions& mapOptions)
       : session(s), passes(s.device(), s.view()), exact(std::move(e)) {
-    const Fit fit = fitMap(s, parameterization, exact, side, options.mapOptions);
-    maps = std::make_unique<MapSet>(s, passes.map, fit.fitted, exact, options.cull);
+    const Fit fit = fitMap(s, parameterization, exact, side, mapOptions);
+    maps = std::make_unique<MapSet>(s, passes.renderers, fit.fitted, exact, options.cull);
     trial = std::make_unique<Trial>(s, passes, exact, *maps);
   }
 };
@@ -71,9 +71,12 @@ Robustness::Robustness(const Session& session, const Exact& exact, const Compare
   otherSession_ = std::make_unique<Session>(session, orbitedCamera(session));
   Exact other = traceExact(*otherSession_, exact.source, exact.light);
   if (other.receivers.scored > 0)
-    otherCamera_ = std::make_unique<Place>(*otherSession_, std::move(other), options, parameterization, side);
-  const int half = std::max(side / 2, 2);
-  otherMapSize_ = std::make_unique<Place>(session, exact, options, parameterization, half);
+    otherCamera_ = std::make_unique<Place>(*otherSession_, std::move(other), options, parameterization, side,
+                                           options.mapOptions);
+  MapOptions halved = options.mapOptions;
+  halved.volumeSize = halvedSize(halved.volumeSize);
+  otherMapSize_ =
+      std::make_unique<Place>(session, exact, options, parameterization, std::max(side / 2, 2), halved);
 }
 
 Robustness::~Robustness() = default;

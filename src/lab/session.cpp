@@ -1,5 +1,6 @@
 #include "lab/session.h"
 
+#include "base/check.h"
 #include "base/error.h"
 #include "scene/generate.h"
 
@@ -115,26 +116,51 @@ Fit fitMap(const Session& session, const Parameterization& parameterization, con
   return fit;
 }
 
-DrawnMap drawMap(const Session& session, const MapRenderer& renderer, const FittedMap& fitted,
+DrawnMap drawMap(const Session& session, const Renderers& renderers, const FittedMap& fitted,
                  const Exact& exact, MapContent content, CullMode cull) {
-  DrawnMap map{.fitted = fitted, .image = std::make_unique<MapImage>(session.device(), fitted, content)};
-  redrawMap(session, renderer, map, exact, cull);
+  DrawnMap map{.fitted = fitted};
+  if (fitted.map.kind == glsl::kMapEpipolar) {
+    GNOMON_CHECK(content == MapContent::OneLayer);
+    map.volume = std::make_unique<ShadowVolume>(
+        session.device(), FittedVolume{.grid = fitted.map.epipolar, .columns = fitted}, fitted.lookedUpIn);
+  } else {
+    map.image = std::make_unique<MapImage>(session.device(), fitted, content);
+  }
+  redrawMap(session, renderers, map, exact, cull);
   return map;
 }
 
-double redrawMap(const Session& session, const MapRenderer& renderer, const DrawnMap& map, const Exact& exact,
+double redrawMap(const Session& session, const Renderers& renderers, const DrawnMap& map, const Exact& exact,
                  CullMode cull) {
   gpu::Commands commands(session.device(), "shadow map");
-  renderer.record(commands, session.buffers(), *map.image, exact.light, cull);
+  if (map.volume)
+    renderers.volume.record(commands, renderers.map, session.buffers(), *map.volume, exact.light, cull);
+  else
+    renderers.map.record(commands, session.buffers(), *map.image, exact.light, cull);
   return commands.submitAndWait().wallMs;
 }
+
+namespace {
+
+void recordVisibility(gpu::Commands& commands, const Session& session, Passes& passes, const DrawnMap& map,
+                      const BiasMethod& bias, bool diagnose, int filter) {
+  if (map.volume) {
+    GNOMON_CHECK_EQ(filter, glsl::kFilterNone);
+    passes.volumeVisibility.record(commands, session.buffers(), session.gbuffer(), *map.volume,
+                                   passes.visibility, bias, diagnose);
+  } else {
+    passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, bias, diagnose,
+                             filter);
+  }
+}
+
+}  // namespace
 
 double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
                       const Method& method, int filter) {
   passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, method.params));
   gpu::Commands commands(session.device(), "visibility");
-  passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, *method.bias, false,
-                           filter);
+  recordVisibility(commands, session, passes, map, *method.bias, false, filter);
   return commands.submitAndWait().wallMs;
 }
 
@@ -163,7 +189,7 @@ std::vector<glsl::PixelDiagnosis> diagnose(const Session& session, Passes& passe
                                            const Exact& exact, const Method& method) {
   passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, method.params));
   gpu::Commands commands(session.device(), "visibility, diagnosed");
-  passes.visibility.record(commands, session.buffers(), session.gbuffer(), *map.image, *method.bias, true);
+  recordVisibility(commands, session, passes, map, *method.bias, true, glsl::kFilterNone);
   commands.submitAndWait();
   return gpu::downloadAs<glsl::PixelDiagnosis>(session.device(), passes.visibility.diagnosis());
 }

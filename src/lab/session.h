@@ -6,6 +6,8 @@
 #include "lab/setup.h"
 #include "shadow/visibility_pass.h"
 #include "truth/labels.h"
+#include "vsv/volume_renderer.h"
+#include "vsv/volume_visibility.h"
 
 #include <memory>
 #include <string>
@@ -69,24 +71,36 @@ struct Fit {
 Fit fitMap(const Session& session, const Parameterization& parameterization, const Exact& exact, int side,
            const MapOptions& options);
 
-// A fitted map, drawn with what a bias needs of it.
+// What draws maps and volumes; one for all of a session.
+struct Renderers {
+  MapRenderer map;
+  VolumeRenderer volume;
+  explicit Renderers(const gpu::Device& device) : map(device), volume(device) {}
+};
+
+// A fitted map, drawn with what a bias needs of it. Exactly one of the two is there.
 struct DrawnMap {
   FittedMap fitted;
   std::unique_ptr<MapImage> image;
+  std::unique_ptr<ShadowVolume> volume;
 };
-DrawnMap drawMap(const Session& session, const MapRenderer& renderer, const FittedMap& fitted,
+DrawnMap drawMap(const Session& session, const Renderers& renderers, const FittedMap& fitted,
                  const Exact& exact, MapContent content, CullMode cull);
 // Wall clock of drawing it once more.
-double redrawMap(const Session& session, const MapRenderer& renderer, const DrawnMap& map, const Exact& exact,
+double redrawMap(const Session& session, const Renderers& renderers, const DrawnMap& map, const Exact& exact,
                  CullMode cull);
 
 // The passes that turn a map into pixels; one set for all maps of a session.
 struct Passes {
-  MapRenderer map;
+  Renderers renderers;
   VisibilityPass visibility;
+  VolumeVisibility volumeVisibility;
   RadiancePass radiance;
   Passes(const gpu::Device& device, const glsl::CameraView& view)
-      : map(device), visibility(device, view.width, view.height), radiance(device, view.width, view.height) {}
+      : renderers(device),
+        visibility(device, view.width, view.height),
+        volumeVisibility(device),
+        radiance(device, view.width, view.height) {}
 };
 
 // A bias with its knobs set.

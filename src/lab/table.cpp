@@ -32,7 +32,7 @@ bool hasSums(const Comparison& comparison) {
 
 // "cube 1024", and the light where there are several.
 std::string mapText(const Comparison& comparison, const Row& row) {
-  return fmt::format("{} {}{}", row.map, row.mapSide, hasSums(comparison) ? ", " + row.light : "");
+  return fmt::format("{} {}{}", row.map, row.mapSize, hasSums(comparison) ? ", " + row.light : "");
 }
 
 // The row of a bias on a map (of all lights together), unfiltered counts being the same for all filters.

@@ -48,7 +48,7 @@ float filteredPixel(const Kernel& kernel, const SurfaceSample& sample, bool lit,
   size_t count = 0;
   int litCount = 0;
   for (int i = 0; i < glsl::kKernelSamples; ++i) {
-    const glm::vec2 uv = point.uv + glsl::kernelOffset(kernel.kind, seed, i) / static_cast<float>(map.side);
+    const glm::vec2 uv = point.uv + glsl::kernelOffset(kernel.kind, seed, i) / glsl::mapTexelCounts(map);
     const glsl::Ray rayL = glsl::mapTexelRay(map, point.layer, uv);
     const RayD ray = rayToWorld(kernel, rayL);
     const double approach = glm::dot(sample.normalW, ray.dir);

@@ -11,13 +11,13 @@ namespace gnomon {
 
 namespace {
 
-gpu::ImageDesc layersDesc(const char* name, VkFormat format, VkImageUsageFlags usage, uint32_t side,
-                          uint32_t layerCount) {
+gpu::ImageDesc layersDesc(const char* name, VkFormat format, VkImageUsageFlags usage,
+                          const glsl::ShadowMap& map) {
   return {.name = name,
           .format = format,
-          .width = side,
-          .height = side,
-          .layerCount = layerCount,
+          .width = static_cast<uint32_t>(map.side),
+          .height = static_cast<uint32_t>(map.rows),
+          .layerCount = static_cast<uint32_t>(map.layerCount),
           .array = true,
           .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT};
 }
@@ -111,13 +111,11 @@ MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, MapConten
           std::vector<glsl::MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)),
       content_(content) {
-  const auto side = static_cast<uint32_t>(fitted.map.side);
-  const auto layers = static_cast<uint32_t>(fitted.map.layerCount);
   depth_ = gpu::Image(device, layersDesc("shadow map depth", VK_FORMAT_D32_SFLOAT,
-                                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, side, layers));
+                                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, fitted.map));
   if (content == MapContent::TwoLayers)
     second_ = gpu::Image(device, layersDesc("shadow map second depth", VK_FORMAT_R32_SFLOAT,
-                                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, side, layers));
+                                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, fitted.map));
 }
 
 MapRenderer::MapRenderer(const gpu::Device& device) : device_(device), bounded_(device) {}
@@ -227,9 +225,9 @@ void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, Map
   };
   const bool peels = method == SecondLayer::Peel && map.content() == MapContent::TwoLayers;
   if (peels && map.peelDepth_.handle() == VK_NULL_HANDLE)
-    map.peelDepth_ = gpu::Image(
-        device_, layersDesc("peel depth", VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                            map.depth().desc().width, static_cast<uint32_t>(map.layerCount())));
+    map.peelDepth_ =
+        gpu::Image(device_, layersDesc("peel depth", VK_FORMAT_D32_SFLOAT,
+                                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, map.fitted_.map));
   for (int layer = 0; layer < map.layerCount(); ++layer) {
     const auto target = static_cast<uint32_t>(layer);
     recordLayer({map, layer, Pass::First, {.depth = &map.depth(), .clearDepth = 1.0f, .layer = target}});

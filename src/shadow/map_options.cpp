@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 
+#include <algorithm>
+#include <charconv>
 #include <span>
 
 #include <fmt/format.h>
@@ -16,6 +18,9 @@ constexpr std::array<const char*, 4> kWarpNames = {"none", "psm", "lispsm", "tsm
 constexpr std::array<const char*, 2> kSnapNames = {"off", "on"};
 constexpr std::array<const char*, 2> kCubeDepthNames = {"hyperbolic", "radial"};
 constexpr std::array<const char*, 2> kParaboloidRasterNames = {"vertex", "exact"};
+
+constexpr std::array<const char*, 2> kVolumeSourceNames = {"resample", "direct"};
+constexpr std::array<const char*, 2> kVolumeFitNames = {"frustum", "full"};
 
 size_t parseName(const char* flag, const std::string& name, std::span<const char* const> names) {
   std::string choices;
@@ -55,6 +60,31 @@ CubeDepth parseCubeDepth(const std::string& name) {
 ParaboloidRaster parseParaboloidRaster(const std::string& name) {
   return static_cast<ParaboloidRaster>(parseName("--paraboloid-raster", name, kParaboloidRasterNames));
 }
+VolumeSource parseVolumeSource(const std::string& name) {
+  return static_cast<VolumeSource>(parseName("--vsv-source", name, kVolumeSourceNames));
+}
+VolumeFit parseVolumeFit(const std::string& name) {
+  return static_cast<VolumeFit>(parseName("--vsv-fit", name, kVolumeFitNames));
+}
+
+VolumeSize parseVolumeSize(const std::string& text) {
+  int sides[3] = {0, 0, 0};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  bool good = true;
+  for (int i = 0; i < 3 && good; ++i) {
+    if (i > 0) good = at != end && *at++ == 'x';
+    const auto [next, failure] = std::from_chars(at, end, sides[i]);
+    good = good && failure == std::errc() && sides[i] >= 2 && sides[i] <= 16384;
+    at = next;
+  }
+  if (!good || at != end || sides[2] % 128 != 0)
+    throw UsageError(
+        fmt::format("--vsv-size {}: write ALPHAxTHETAxPHI, each 2..16384 voxels and PHI a multiple of 128, "
+                    "as in 1024x1024x512",
+                    text));
+  return {.alpha = sides[0], .theta = sides[1], .phi = sides[2]};
+}
 
 const char* windowFitName(WindowFit fit) {
   return kWindowFitNames[static_cast<size_t>(fit)];
@@ -67,6 +97,20 @@ const char* cubeDepthName(CubeDepth depth) {
 }
 const char* paraboloidRasterName(ParaboloidRaster raster) {
   return kParaboloidRasterNames[static_cast<size_t>(raster)];
+}
+VolumeSize halvedSize(const VolumeSize& size) {
+  return {.alpha = std::max(size.alpha / 2, 2),
+          .theta = std::max(size.theta / 2, 2),
+          .phi = std::max(size.phi / 256 * 128, 128)};
+}
+std::string volumeSizeName(const VolumeSize& size) {
+  return fmt::format("{}x{}x{}", size.alpha, size.theta, size.phi);
+}
+const char* volumeSourceName(VolumeSource source) {
+  return kVolumeSourceNames[static_cast<size_t>(source)];
+}
+const char* volumeFitName(VolumeFit fit) {
+  return kVolumeFitNames[static_cast<size_t>(fit)];
 }
 
 }  // namespace gnomon

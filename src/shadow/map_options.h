@@ -39,6 +39,24 @@ enum class ParaboloidRaster {
 
 inline constexpr int kMostCascades = 4;
 
+// Voxels of a shadow volume along its three angles (shaders/shared/epipolar.glsl); phi a multiple of 128.
+struct VolumeSize {
+  int alpha = 1024, theta = 1024, phi = 512;
+  bool operator==(const VolumeSize&) const = default;
+};
+
+// Where the occluders of a shadow volume come from.
+enum class VolumeSource {
+  Resample,  // a cube map of the scene, looked up along each column (the papers' way)
+  Direct,    // the scene itself, drawn into (theta, phi), each column deciding by its own ray
+};
+
+// What alpha, theta and phi of a shadow volume cover.
+enum class VolumeFit {
+  Frustum,  // what the camera sees, from the eye to the surfaces
+  Full,     // the whole sphere, as in the papers
+};
+
 struct MapOptions {
   WindowFit fit = WindowFit::Focused;
   bool snap = true;  // texels keep their places in the world while the camera moves; warped ones cannot
@@ -48,6 +66,9 @@ struct MapOptions {
   ParaboloidRaster paraboloidRaster = ParaboloidRaster::Exact;
   std::optional<glm::dvec3>
       paraboloidAxisW;  // unit; absent: the seam is turned away from what the camera sees
+  VolumeSize volumeSize;
+  VolumeSource volumeSource = VolumeSource::Direct;
+  VolumeFit volumeFit = VolumeFit::Frustum;
 };
 
 // Throws UsageError that names the flags: --cascades outside 1..kMostCascades, or together with --warp, which
@@ -63,9 +84,17 @@ Warp parseWarp(const std::string& name);                          // none, psm, 
 CubeDepth parseCubeDepth(const std::string& name);                // hyperbolic, radial
 bool parseSnap(const std::string& name);                          // on, off
 ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, exact
+VolumeSize parseVolumeSize(const std::string& text);              // AxTxP
+VolumeSource parseVolumeSource(const std::string& name);          // resample, direct
+VolumeFit parseVolumeFit(const std::string& name);                // frustum, full
 const char* windowFitName(WindowFit fit);
 const char* warpName(Warp warp);
 const char* cubeDepthName(CubeDepth depth);
 const char* paraboloidRasterName(ParaboloidRaster raster);
+// Half of each side, as far as that is a size.
+VolumeSize halvedSize(const VolumeSize& size);
+std::string volumeSizeName(const VolumeSize& size);
+const char* volumeSourceName(VolumeSource source);
+const char* volumeFitName(VolumeFit fit);
 
 }  // namespace gnomon

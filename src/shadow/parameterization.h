@@ -3,9 +3,11 @@
 // layers. Its mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in
 // shaders/shared/map.glsl, and a FittedMap carries the numbers those functions read.
 //
-// spot and directional are here, cube and paraboloid in omni/; lab/maps.h has the list of all.
+// spot and directional are here, cube and paraboloid in omni/, the shadow volume in vsv/; lab/maps.h has the
+// list of all.
 
 #include "scene/scene_buffers.h"
+#include "shadow/bias.h"
 #include "shadow/layer_shaders.h"
 #include "shadow/map_options.h"
 #include "truth/receivers.h"
@@ -30,6 +32,8 @@ struct FittedMap {
   LayerShaders shaders;
   // What a report should say of the fit: why a warp was weakened or not applied. Empty: nothing.
   std::string note = {};
+  // Of a shadow volume's columns: the map that gives their occluders; none: their own layer is drawn.
+  std::shared_ptr<const FittedMap> lookedUpIn;
 };
 
 // What a map may be fitted to.
@@ -55,6 +59,10 @@ class Parameterization {
   // How a light is taken. `aimW` is the unit direction in which a light without one of its own is made to
   // shine. The light is one that takes() does not refuse.
   virtual LightModel lightModel(const Light& light, const glm::dvec3& aimW) const = 0;
+  // Whether a bias means anything on it, and whether its texels can be filtered: a shadow volume holds no
+  // depths.
+  virtual bool answers(const BiasMethod&) const { return true; }
+  virtual bool takesFilters() const { return true; }
   virtual FittedMap fit(const FitInput& input) const = 0;
 };
 

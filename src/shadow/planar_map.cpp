@@ -165,7 +165,7 @@ FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
   fitted.map = {};
   fitted.map.kind = glsl::kMapPlanar;
   fitted.map.layerCount = cascadeCount;
-  fitted.map.side = input.side;
+  fitted.map.side = fitted.map.rows = input.side;
   fitted.map.sceneScale = bounds.diagonal();
   for (size_t i = 0; i < planes.size(); ++i) {
     const LayerFit layer = fitDepth(input, frame, bounds, planes[i]);

@@ -26,6 +26,7 @@ class VisibilityPass {
 
   void setUniforms(const glsl::ShadeUniforms& uniforms);
 
+  glm::uvec3 groupCount() const { return groupCount_; }  // of kShadeGroupSide^2, for the whole picture
   const gpu::Buffer& uniforms() const { return uniforms_; }
   const gpu::Buffer& visibility() const { return visibility_; }  // float a pixel; 1 lit, kUnknownVisibility
   const gpu::Buffer& diagnosis() const { return diagnosis_; }    // glsl::PixelDiagnosis a pixel

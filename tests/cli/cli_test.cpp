@@ -110,6 +110,17 @@ TEST_F(CliTest, EveryBiasKnobIsAFlag) {
   EXPECT_EQ(rows[1].at("params").at("cull"), "none");
 }
 
+TEST_F(CliTest, AShadowVolumeLeavesOutWhatMeansNothingOnItAndSaysSo) {
+  const Result result = run(
+      "compare contact --maps vsv --biases none,slope,adaptive --vsv-size 64x64x128 --size 32 --repeats 1");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_NE(result.err.find("leaves out slope"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("vsv 64x64x128"), std::string::npos) << result.out;
+  const Result tooLarge = run("compare contact --maps vsv --biases none --vsv-size 4096x4096x4096 --size 32");
+  EXPECT_EQ(tooLarge.exitCode, 1);
+  EXPECT_NE(tooLarge.err.find("would fit"), std::string::npos) << tooLarge.err;
+}
+
 TEST_F(CliTest, MapTexelsPicksTheSide) {
   const Result result =
       run("compare corner --biases none --map-texels 10000 --size 32 --repeats 1 --json @/r.json");
@@ -130,6 +141,13 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("compare", 2, "SCENE");
   expectMistake("compare contact --maps disc", 2, "--maps disc: no such map");
   expectMistake("compare contact --biases adaptve", 2, "adaptve: no such bias");
+  expectMistake("compare contact --maps vsv --biases slope,dual", 2,
+                "--maps vsv takes none of these --biases; choose from none, constant, adaptive");
+  expectMistake("compare contact --maps vsv --biases none --filters bilinear", 2,
+                "--maps vsv takes no filter");
+  expectMistake("compare contact --maps vsv --vsv-size 64x64x100", 2, "--vsv-size 64x64x100");
+  expectMistake("compare contact --maps vsv --vsv-source cube", 2, "--vsv-source cube");
+  expectMistake("compare contact --maps vsv --vsv-fit tight", 2, "--vsv-fit tight");
   expectMistake("compare contact --size 0", 2, "--size 0");
   expectMistake("compare contact --map-size 1", 2, "2..16384");
   expectMistake("compare contact --map-size 64 --map-texels 4096", 2, "excludes");
@@ -201,6 +219,37 @@ TEST_F(CliTest, AnExportedSceneComparesEqual) {
         EXPECT_EQ(a["rows"][i].at(key), b["rows"][i].at(key)) << scene << " " << key;
     EXPECT_EQ(a.at("scene").at("sceneScale"), b.at("scene").at("sceneScale"));
   }
+}
+
+TEST_F(CliTest, VsvValidatesAndWritesAVolume) {
+  const Result result = run(
+      "vsv contact --validate --vsv-size 64x64x128 --vsv-source resample --map-size 64 --size 64 -o @/out "
+      "--json @/v.json --vdb @/v.vdb");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const auto json = nlohmann::json::parse(readFile(folder_ / "v.json"));
+  EXPECT_EQ(readFile(folder_ / "v.json"), readFile(folder_ / "out" / "volume.json"));
+  EXPECT_EQ(json.at("same_map").at("mismatches"), 0);
+  EXPECT_EQ(json.at("exact").at("columns"), 64 * 128);
+  EXPECT_EQ(json.at("vdb").at("bytes"), fs::file_size(folder_ / "v.vdb"));
+  EXPECT_EQ(readFile(folder_ / "v.vdb").substr(0, 4), " BDV");
+  for (const char* picture : {"slice_alpha", "slice_theta", "slice_phi", "coordinates"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / (std::string(picture) + ".png"))) << picture;
+}
+
+TEST_F(CliTest, VsvSaysWhatIsWrong) {
+  expectMistake("vsv contact --vsv-size 64x64", 2, "--vsv-size");
+  expectMistake("vsv contact --vsv-source map", 2, "--vsv-source map");
+  expectMistake("vsv contact --vsv-fit tight", 2, "--vsv-fit tight");
+  expectMistake("vsv contact --vdb @/v.nvdb", 2, "write a .vdb");
+  expectMistake("vsv contact --vdb-voxel 1", 2, "--vdb-voxel needs a --vdb");
+  expectMistake("vsv contact --vdb @/v.vdb --vdb-voxel nan", 2, "--vdb-voxel");
+  const std::string small = "vsv contact --vsv-size 64x64x128 --size 16 ";
+  expectMistake(small + "--vdb @/v.vdb --vdb-voxel 1e-5", 2, "--vdb-voxel 1e-05");
+  expectMistake(small + "--vdb /proc/nowhere/v.vdb", 1, "/proc/nowhere");
+  expectMistake(small + "--vdb /dev/null/v.vdb", 1, "/dev/null");
+  expectMistake("vsv contact --vsv-size 8192x8192x8192 --size 16", 1, "would fit");
+  EXPECT_EQ(fileCount(), 0u);
 }
 
 TEST_F(CliTest, SceneListsAndInfoTells) {

@@ -19,7 +19,7 @@ class TuneTest : public ::testing::Test {
         passes_(session_.device(), session_.view()),
         spot_(*parseMaps("spot").front()),
         exact_(computeExact(session_, spot_)),
-        maps_(session_, passes_.map, fitMap(session_, spot_, exact_, 64, {}).fitted, exact_,
+        maps_(session_, passes_.renderers, fitMap(session_, spot_, exact_, 64, {}).fitted, exact_,
               CullMode::Solids),
         trial_(session_, passes_, exact_, maps_) {}
 

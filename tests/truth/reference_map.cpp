@@ -60,7 +60,7 @@ ReferenceMap traceReferenceMap(const Tracer& tracer, const LightModel& light, co
   result.map = {};
   result.map.kind = glsl::kMapPlanar;
   result.map.layerCount = 1;
-  result.map.side = window.side;
+  result.map.side = result.map.rows = window.side;
   result.map.sceneScale = computeBounds(tracer.scene()).diagonal();
   result.map.mapLayers[0] = {glm::mat4(clip), glm::mat4(glm::inverse(clip))};
   result.depths.assign(static_cast<size_t>(window.side) * static_cast<size_t>(window.side), 1.0f);

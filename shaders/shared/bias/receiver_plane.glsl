@@ -15,13 +15,13 @@ GNOMON_FN bool receiverPlaneLit(ShadowMap map, BiasParams params, Receiver recei
   MapPoint point = mapProject(map, receiver.posL);
   if (point.layer != tap.layer) return depth <= tap.z1;  // a tap across an edge of the map: no gradient leads there
   vec2 uv = point.uv;
-  float texel = 1.0f / float(map.side);
+  vec2 texel = vec2(1.0f / float(map.side), 1.0f / float(map.rows));
   PlaneDepth here = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, uv));
-  PlaneDepth right = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, vec2(uv.x + texel, uv.y)));
-  PlaneDepth below = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, vec2(uv.x, uv.y + texel)));
+  PlaneDepth right = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, vec2(uv.x + texel.x, uv.y)));
+  PlaneDepth below = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, vec2(uv.x, uv.y + texel.y)));
   vec2 center = mapTexelCenter(map, tap.texel);
-  float change = (right.depth - here.depth) * ((center.x - uv.x) / texel) +
-                 (below.depth - here.depth) * ((center.y - uv.y) / texel);
+  float change = (right.depth - here.depth) * ((center.x - uv.x) / texel.x) +
+                 (below.depth - here.depth) * ((center.y - uv.y) / texel.y);
   return depth + change <= tap.z1;
 }
 

@@ -23,9 +23,9 @@ GNOMON_FN float planeDepthChange(ShadowMap map, int layer, Receiver receiver, fl
 GNOMON_FN bool slopeLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
   float center = receiverPlaneDepth(map, tap.layer, receiver, tap.ray).depth;
   vec2 uv = mapTexelCenter(map, tap.texel);
-  float halfTexel = 0.5f / float(map.side);
-  float change = max(planeDepthChange(map, tap.layer, receiver, center, vec2(uv.x + halfTexel, uv.y)),
-                     planeDepthChange(map, tap.layer, receiver, center, vec2(uv.x, uv.y + halfTexel)));
+  vec2 halfTexel = vec2(0.5f / float(map.side), 0.5f / float(map.rows));
+  float change = max(planeDepthChange(map, tap.layer, receiver, center, vec2(uv.x + halfTexel.x, uv.y)),
+                     planeDepthChange(map, tap.layer, receiver, center, vec2(uv.x, uv.y + halfTexel.y)));
   float depth = depthTowardsLight(map, tap.layer, receiver.posL, tap.ray, params.slopeOffset);
   return depth - params.slopeFactor * change <= tap.z1;
 }

@@ -1,0 +1,48 @@
+// The columns of a shadow volume as a map: one layer, theta along u, phi along v, and depth = alpha / (the volume's upper alpha).
+// Part of shared/map.glsl, which includes it after the structs; epipolar.glsl has the coordinates.
+//
+// Depth is 0 at the light whatever alpha the volume begins with, so that a caster before the volume still shadows all of it, and a
+// texel's ray begins at the light, where alpha is 0 on every ray.
+#ifndef GNOMON_EPIPOLAR_MAP_GLSL
+#define GNOMON_EPIPOLAR_MAP_GLSL
+
+#include "shared/epipolar.glsl"
+#include "shared/geometry.glsl"
+#include "shared/lang.glsl"
+
+GNOMON_SHARED_BEGIN
+
+GNOMON_FN MapPoint epipolarMapProject(ShadowMap map, vec3 posL) {
+  EpipolarGrid grid = map.epipolar;
+  EpipolarPoint at = epipolarFromLight(grid.eyeDistance, posL);
+  MapPoint point;
+  point.layer = 0;
+  point.uv = vec2(thetaSteps(grid, at.theta) / float(grid.thetaCount),
+                  (at.phi - grid.phiLower) / (float(grid.phiCount) * grid.phiStep));
+  point.covered = point.uv.x <= 1.0f && point.uv.y >= 0.0f && point.uv.y <= 1.0f && dot(posL, posL) > 0.0f;
+  return point;
+}
+
+GNOMON_FN Ray epipolarMapTexelRay(ShadowMap map, vec2 uv) {
+  EpipolarGrid grid = map.epipolar;
+  Ray ray;
+  ray.origin = vec3(0.0f, 0.0f, 0.0f);
+  ray.dir = epipolarDirection(grid.thetaLower + uv.x * (float(grid.thetaCount) * grid.thetaStep),
+                              grid.phiLower + uv.y * (float(grid.phiCount) * grid.phiStep));
+  return ray;
+}
+
+GNOMON_FN float epipolarMapDepth(ShadowMap map, vec3 posL) {
+  return epipolarFromLight(map.epipolar.eyeDistance, posL).alpha / alphaUpper(map.epipolar);
+}
+
+GNOMON_FN float epipolarMapDepthSlope(ShadowMap map, vec3 posL, vec3 rayDir) {
+  return epipolarAlphaSlope(map.epipolar.eyeDistance, rayDir, length(posL)) / alphaUpper(map.epipolar);
+}
+
+GNOMON_FN float epipolarMapDistance(ShadowMap map, Ray ray, float depth) {
+  return epipolarDistance(map.epipolar.eyeDistance, depth * alphaUpper(map.epipolar), ray.dir);
+}
+
+GNOMON_SHARED_END
+#endif

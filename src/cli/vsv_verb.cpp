@@ -1,0 +1,90 @@
+#include "base/error.h"
+#include "base/file.h"
+#include "cli/common_flags.h"
+#include "cli/verbs.h"
+#include "lab/volume_report.h"
+
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+namespace gnomon {
+
+namespace {
+
+struct VsvFlags {
+  SceneFlags scene;
+  MethodFlags method;  // --map-size, --cull and those of volumes
+  bool validate = false;
+  std::string out;
+  std::string json;
+  std::string vdb;
+  std::optional<double> vdbVoxel;
+};
+
+VolumeOptions volumeOptions(const VsvFlags& flags) {
+  VolumeOptions options{.mapSide = flags.method.mapSize,
+                        .cull = parseCullMode(flags.method.cull),
+                        .validate = flags.validate,
+                        .outDir = flags.out,
+                        .vdb = flags.vdb,
+                        .command = commandLine()};
+  options.map.volumeSize = parseVolumeSize(flags.method.vsvSize);
+  options.map.volumeSource = parseVolumeSource(flags.method.vsvSource);
+  options.map.volumeFit = parseVolumeFit(flags.method.vsvFit);
+  if (!flags.vdb.empty() && options.vdb.extension() != ".vdb")
+    throw UsageError(fmt::format("--vdb {}: write a .vdb", flags.vdb));
+  if (flags.vdbVoxel) {
+    if (flags.vdb.empty()) throw UsageError("--vdb-voxel needs a --vdb");
+    if (!(*flags.vdbVoxel > 0.0 && *flags.vdbVoxel < 1e6))
+      throw UsageError(fmt::format("--vdb-voxel {}: metres, more than 0 and less than 1e6", *flags.vdbVoxel));
+    options.vdbVoxel = *flags.vdbVoxel;
+  }
+  return options;
+}
+
+int runVsv(const VsvFlags& flags) {
+  const VolumeOptions options = volumeOptions(flags);
+  const Session session = openSession(flags.scene);
+  const VolumeResult result = examineVolume(session, options);
+  const std::string json = volumeJson(session, options, result);
+  if (!flags.out.empty()) writeTextFile(options.outDir / "volume.json", json);
+  if (!flags.json.empty()) writeTextFile(flags.json, json);
+  std::fputs(volumeTable(session, options, result).c_str(), stdout);
+  if (!flags.out.empty())
+    std::printf("wrote %s/volume.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
+  if (result.sound()) return 0;
+  std::fprintf(stderr, "gnomon: the volume is not the one that its source implies: see 'same map' above\n");
+  return 3;
+}
+
+}  // namespace
+
+Run addVsvVerb(CLI::App& app) {
+  auto flags = std::make_shared<VsvFlags>();
+  CLI::App* verb =
+      app.add_subcommand("vsv", "a voxelized shadow volume: build it, check it on the CPU, write it as .vdb");
+  addSceneFlags(*verb, flags->scene);
+  addVolumeFlags(*verb, flags->method);
+  verb->add_option("--map-size", flags->method.mapSize,
+                   "side of the cube map that --vsv-source resample looks columns up in, texels")
+      ->check(CLI::Range(2, 16384))
+      ->capture_default_str();
+  verb->add_option("--cull", flags->method.cull,
+                   "solids: closed one-sided meshes cast by their lit faces only; none: everything casts")
+      ->capture_default_str();
+  verb->add_flag("--validate", flags->validate,
+                 "check every voxel against what the same map implies (exit code 3 where one differs beyond "
+                 "rounding) and every column against a traced ray");
+  verb->add_option("-o,--out", flags->out, "folder for slices, the coordinates' picture and volume.json");
+  verb->add_option("--json", flags->json, "write volume.json here");
+  verb->add_option("--vdb", flags->vdb,
+                   "write an OpenVDB file: the voxels as a mask, and a density in the world, 1 in shadow");
+  verb->add_option("--vdb-voxel", flags->vdbVoxel,
+                   "edge of the density's voxels, metres; default: of the volume's mean voxel");
+  return [flags] { return runVsv(*flags); };
+}
+
+}  // namespace gnomon

@@ -1,0 +1,43 @@
+#include "vsv/volume_parameterization.h"
+
+#include "omni/cube_map.h"
+#include "vsv/volume_visibility.h"
+
+namespace gnomon {
+
+namespace {
+
+class VolumeParameterization final : public Parameterization {
+ public:
+  const char* name() const override { return "vsv"; }
+  const char* sentence() const override { return "a voxelized shadow volume in epipolar coordinates"; }
+  int layerCount(const MapOptions&) const override { return 1; }
+
+  Takes takes(LightType type) const override {
+    return type == LightType::Directional ? Takes::No : Takes::Yes;
+  }
+
+  LightModel lightModel(const Light& light, const glm::dvec3&) const override {
+    return {.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};
+  }
+
+  bool answers(const BiasMethod& method) const override { return volumeAnswers(method); }
+  bool takesFilters() const override { return false; }
+
+  FittedMap fit(const FitInput& input) const override {
+    const MapOptions& options = input.options;
+    FittedMap columns = fitVolume(input, options.volumeSize, options.volumeFit).columns;
+    if (options.volumeSource == VolumeSource::Resample)
+      columns.lookedUpIn = std::make_shared<const FittedMap>(cubeParameterization().fit(input));
+    return columns;
+  }
+};
+
+}  // namespace
+
+const Parameterization& volumeParameterization() {
+  static const VolumeParameterization volume;
+  return volume;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,37 @@
+#pragma once
+// Pixels to light or shadow by a shadow volume. Reads and writes the buffers of a VisibilityPass, so that
+// whatever reads those serves maps and volumes alike.
+
+#include "shadow/visibility_pass.h"
+#include "vsv/shadow_volume.h"
+
+namespace gnomon {
+
+// Whether a bias means anything on bits: none, constant and adaptive do (shaders/shared/volume_lookup.glsl).
+bool volumeAnswers(const BiasMethod& method);
+
+class VolumeVisibility {
+ public:
+  explicit VolumeVisibility(const gpu::Device& device) : device_(device) {}
+
+  // `pass` holds the frame's uniforms and takes the result.
+  void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+              const ShadowVolume& volume, const VisibilityPass& pass, const BiasMethod& method,
+              bool diagnose);
+
+ private:
+  struct VariantKey {
+    int32_t method, diagnose, instanced;
+    bool operator==(const VariantKey&) const = default;
+  };
+  struct Variant {
+    VariantKey key;
+    gpu::ComputeProgram program;
+  };
+  const gpu::ComputeProgram& program(const VariantKey& key);
+
+  const gpu::Device& device_;
+  std::vector<std::unique_ptr<Variant>> variants_;
+};
+
+}  // namespace gnomon
