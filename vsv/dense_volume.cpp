@@ -48,12 +48,8 @@ uint64_t occludedCount(const DenseVolume& volume) {
 ColumnBoundaries impliedBoundaries(const glsl::EpipolarGrid& grid, std::span<const float> alphaOccluders) {
   GNOMON_CHECK_EQ(alphaOccluders.size(), columnCount(grid));
   ColumnBoundaries boundaries{grid, std::vector<int>(alphaOccluders.size())};
-  const float beyondAll = glsl::alphaCenter(grid, grid.alphaCount);
-  for (size_t c = 0; c < alphaOccluders.size(); ++c) {
-    // firstOccluded() turns a quotient into an int, which infinity is not.
-    const float alpha = alphaOccluders[c];
-    boundaries.first[c] = alpha < beyondAll ? glsl::firstOccluded(grid, alpha) : grid.alphaCount;
-  }
+  for (size_t c = 0; c < alphaOccluders.size(); ++c)
+    boundaries.first[c] = glsl::firstOccluded(grid, alphaOccluders[c]);
   return boundaries;
 }
 

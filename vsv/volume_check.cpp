@@ -66,9 +66,8 @@ BitsCheck checkTheta(const DenseVolume& measured, const Columns& columns, int th
 // - sin and cos differ by 1 ulp, their products by 1/2 more: 2.5 for each coordinate of dir;
 // - r is the texel's depth by dir's share along the face's axis, at least 1/sqrt(3), after two rotations of
 //   2 ulps each: 6.5 sqrt(3) = 11.3 r;
-// - their product rounds by 1/2 along each axis, r itself by 1/2: P lies off by at most (11.3 + 2.5 + 1.4) r
-// in
-//   all, and D - z rounds by 1/2 D once more;
+// - their product rounds by 1/2 along each axis, r itself by 1/2: P lies off by at most
+//   (11.3 + 2.5 + 1.4) r in all, and D - z rounds by 1/2 D once more;
 // - seen from E at the distance d that is an angle of (15.2 r + 0.5 D) / d, and the law of sines has
 //   r / d = sin alpha / sin phi, D / d = sin(phi + alpha) / sin phi.
 // The arc tangent itself adds 4e-6, whatever its value: 3.3e-6 was measured, and a test holds it to 4e-6.

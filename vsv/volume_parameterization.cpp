@@ -27,8 +27,12 @@ class VolumeParameterization final : public Parameterization {
   FittedMap fit(const FitInput& input) const override {
     const MapOptions& options = input.options;
     FittedMap columns = fitVolume(input, options.volumeSize, options.volumeFit).columns;
-    if (options.volumeSource == VolumeSource::Resample)
-      columns.lookedUpIn = std::make_shared<const FittedMap>(cubeParameterization().fit(input));
+    if (options.volumeSource == VolumeSource::Resample) {
+      FitInput cube = input;
+      // All of the scene casts into the whole sphere, and not only what stands before the camera's surfaces.
+      if (options.volumeFit == VolumeFit::Full) cube.receiversW = {};
+      columns.lookedUpIn = std::make_shared<const FittedMap>(cubeParameterization().fit(cube));
+    }
     return columns;
   }
 };

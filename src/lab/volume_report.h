@@ -1,5 +1,6 @@
 #pragma once
-// What `gnomon vsv` found, as an aligned table for a terminal and as JSON (docs/volume_check.md describes both).
+// What `gnomon vsv` found, as an aligned table for a terminal and as JSON (docs/volume_check.md describes
+// both).
 
 #include "lab/volume_validation.h"
 

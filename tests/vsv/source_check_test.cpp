@@ -112,5 +112,20 @@ TEST_F(SourceCheckTest, ADirectVolumeIsTheExactOneUpToRoundingAndSilhouettes) {
   }
 }
 
+// A full volume holds what the camera does not see, so the map it is looked up in must, too.
+TEST_F(SourceCheckTest, AFullVolumeLooksBeyondWhatTheCameraSees) {
+  VolumeSetup corner = setup("atrium", VolumeSource::Resample, VolumeFit::Full);
+  corner.camera = lookAt("down", {1.0f, 2.0f, 0.5f}, {1.0f, 0.0f, 0.4f}, 0.5f);
+  const VolumeWorld world = buildVolume(device(), corner);
+  const FittedVolume& fitted = world.volume->fitted();
+  const ExactVolume exact = traceColumns(*world.tracer, fitted.columns.frame, fitted.grid);
+  const ColumnBoundaries measured = boundariesOf(denseOf(downloadBits(device(), *world.volume))).boundaries;
+  const BoundaryErrors errors = compareBoundaries(*world.tracer, fitted.columns.frame, exact, measured,
+                                                  columnSource(*world.volume), 1e-5);
+  uint64_t outside = 0;
+  for (const uint64_t count : errors.byCause[static_cast<size_t>(BoundaryCause::Outside)]) outside += count;
+  EXPECT_LT(outside, errors.columns / 1000);
+}
+
 }  // namespace
 }  // namespace gnomon
