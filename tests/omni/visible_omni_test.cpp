@@ -52,7 +52,7 @@ class VisibleOmni : public gpu::GpuTest {
     VisibilityPass pass(device(), r.view.width, r.view.height);
     pass.setUniforms(shadeUniforms(r.view, r.light, defaultBiasParams(r.fitted.map.sceneScale)));
     gpu::Commands commands(device(), "visibility");
-    pass.record(commands, r.buffers, *r.gbuffer, *image, method.id, true);
+    pass.record(commands, r.buffers, *r.gbuffer, *image, method, true);
     commands.submitAndWait();
     const auto diagnosis = gpu::downloadAs<glsl::PixelDiagnosis>(device(), pass.diagnosis());
     const Truth truth = computeTruth(*r.tracer, r.light, r.receivers);
