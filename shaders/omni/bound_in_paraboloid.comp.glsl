@@ -29,31 +29,38 @@ void main() {
   whole.c = triangle.c;
   whole.uvA = whole.uvB = whole.uvC = vec2(0.0f, 0.0f);
   vec3 inverseNormal = inversePlaneNormal(triangle);
-  PieceWalk walk = wholeTriangle();
-  do {
-    Piece piece = pieceAt(layer, whole, false, walk);
+  Piece waiting[kMostWaiting];
+  int waitingCount = 0;
+  Piece piece = whole;
+  bool more = true;
+  while (more) {
     QuadBound bound = paraboloidBound(shadowMap.side, layer, lightTriangle(piece.a, piece.b, piece.c));
     bool seen = bound.p0 != bound.p1 || bound.p1 != bound.p2;
     // What finds no room stays whole: its bound is wider, and nothing else.
-    if (seen && walk.depth < kMostHalvings && isWorthHalving(shadowMap.side, layer, piece, bound) &&
+    if (seen && waitingCount < kMostWaiting && isWorthHalving(shadowMap.side, layer, piece, bound) &&
         atomicAdd(draw.extraCount, 1u) < kMostExtraTriangles) {
-      walk = firstHalf(walk);
+      PieceHalves halves = halvesOf(shadowMap.side, layer, piece, false);
+      waiting[waitingCount] = halves.second;
+      ++waitingCount;
+      piece = halves.first;
       continue;
     }
-    walk = nextPiece(walk);
-    if (!seen) continue;
-    BoundedTriangle result;
-    result.p0 = vec2(bound.p0.x, -bound.p0.y);
-    result.p1 = vec2(bound.p1.x, -bound.p1.y);
-    result.p2 = vec2(bound.p2.x, -bound.p2.y);
-    result.p3 = vec2(bound.p3.x, -bound.p3.y);
-    result.sideA = triangle.sideA;
-    result.sideB = triangle.sideB;
-    result.sideC = triangle.sideC;
-    result.inverseNormal = inverseNormal;
-    result.triangle = index;
-    result.instance = instance;
-    // In any order: the nearest depth is the same.
-    found[atomicAdd(draw.vertexCount, 6u) / 6u] = result;
-  } while (walk.depth > 0);
+    if (seen) {
+      BoundedTriangle result;
+      result.p0 = vec2(bound.p0.x, -bound.p0.y);
+      result.p1 = vec2(bound.p1.x, -bound.p1.y);
+      result.p2 = vec2(bound.p2.x, -bound.p2.y);
+      result.p3 = vec2(bound.p3.x, -bound.p3.y);
+      result.sideA = triangle.sideA;
+      result.sideB = triangle.sideB;
+      result.sideC = triangle.sideC;
+      result.inverseNormal = inverseNormal;
+      result.triangle = index;
+      result.instance = instance;
+      // In any order: the nearest depth is the same.
+      found[atomicAdd(draw.vertexCount, 6u) / 6u] = result;
+    }
+    more = waitingCount > 0;
+    if (more) piece = waiting[--waitingCount];
+  }
 }

@@ -32,14 +32,21 @@ GNOMON_FN vec2 arcMiddleUv(vec3 p, vec3 q, vec2 uvP, vec2 uvQ) {
   return (uvP * lq + uvQ * lp) * (1.0f / (lp + lq));
 }
 
+// Along the layer's axis over distance, where what is drawn ends: centres of held texels lie up to 1.42 / side beyond the rim, and a
+// straight edge may stand off by 1 / side.
+GNOMON_FN float piecesRimW(int side) {
+  float rim = 1.0f + 2.5f / float(side);
+  return (1.0f - rim * rim) / (1.0f + rim * rim);
+}
+
 const float kBendsBeyondMeasure = 4.0f;  // as wide as two discs
 
 // How far, on the layer's plane, an edge drawn straight is from where it belongs. Ends in the layer's frame. Nothing of an edge
-// behind the light is seen; of one that reaches there the projection may be anywhere until it spans less than 60 degrees.
-GNOMON_FN float edgeBend(vec3 p, vec3 q) {
-  if (p.z < 0.0f && q.z < 0.0f) return 0.0f;
+// beyond the rim is seen; of one that reaches there the projection may be anywhere until it spans less than 60 degrees.
+GNOMON_FN float edgeBend(vec3 p, vec3 q, float rimW) {
   float lp = length(p);
   float lq = length(q);
+  if (p.z < rimW * lp && q.z < rimW * lq) return 0.0f;
   if (lp == 0.0f || lq == 0.0f) return 0.0f;
   if ((p.z < 0.0f || q.z < 0.0f) && dot(p, q) < 0.5f * lp * lq) return kBendsBeyondMeasure;
   vec2 chord = vec2(q.x, q.y) * (1.0f / (lq + q.z)) - vec2(p.x, p.y) * (1.0f / (lp + p.z));
@@ -48,11 +55,12 @@ GNOMON_FN float edgeBend(vec3 p, vec3 q) {
 
 // The same of depth: distances that are interpolated along the chord miss the middle's by `off`, as much as a shift by
 // off / (change of distance along the chord) would, or what half that width is at the middle's distance, seen face on.
-GNOMON_FN float edgeSink(vec3 p, vec3 q) {
-  if (p.z < 0.0f && q.z < 0.0f) return 0.0f;
+GNOMON_FN float edgeSink(vec3 p, vec3 q, float rimW) {
   float lp = length(p);
   float lq = length(q);
+  if (p.z < rimW * lp && q.z < rimW * lq) return 0.0f;
   if (lp == 0.0f || lq == 0.0f) return 0.0f;
+  if ((p.z < 0.0f || q.z < 0.0f) && dot(p, q) < 0.5f * lp * lq) return kBendsBeyondMeasure;
   vec2 chord = vec2(q.x, q.y) * (1.0f / (lq + q.z)) - vec2(p.x, p.y) * (1.0f / (lp + p.z));
   float size = length(chord);
   if (size == 0.0f) return 0.0f;
@@ -65,107 +73,59 @@ struct Bends {
   float a, b, c;  // of the edges opposite
 };
 
-GNOMON_FN Bends pieceBends(int layer, Piece piece, bool drawnStraight) {
+GNOMON_FN Bends pieceBends(int side, int layer, Piece piece, bool drawnStraight) {
   vec3 a = layerFromLight(layer, piece.a);
   vec3 b = layerFromLight(layer, piece.b);
   vec3 c = layerFromLight(layer, piece.c);
+  float rimW = piecesRimW(side);
   Bends bends;
-  bends.a = edgeBend(b, c);
-  bends.b = edgeBend(c, a);
-  bends.c = edgeBend(a, b);
+  bends.a = edgeBend(b, c, rimW);
+  bends.b = edgeBend(c, a, rimW);
+  bends.c = edgeBend(a, b, rimW);
   if (drawnStraight) {
-    bends.a = max(bends.a, edgeSink(b, c));
-    bends.b = max(bends.b, edgeSink(c, a));
-    bends.c = max(bends.c, edgeSink(a, b));
+    bends.a = max(bends.a, edgeSink(b, c, rimW));
+    bends.b = max(bends.b, edgeSink(c, a, rimW));
+    bends.c = max(bends.c, edgeSink(a, b, rimW));
   }
   return bends;
 }
 
 GNOMON_FN float worstBend(Bends bends) { return max(bends.a, max(bends.b, bends.c)); }
 
-// One half: 0 keeps the edge's first end, 1 its second.
-GNOMON_FN Piece halfOf(int layer, Piece piece, bool drawnStraight, uint which) {
-  Bends bends = pieceBends(layer, piece, drawnStraight);
-  float worst = worstBend(bends);
-  Piece result = piece;
-  if (bends.a == worst) {
-    vec3 middle = arcMiddle(piece.b, piece.c);
-    vec2 uv = arcMiddleUv(piece.b, piece.c, piece.uvB, piece.uvC);
-    if (which == 0u) {
-      result.c = middle;
-      result.uvC = uv;
-    } else {
-      result.b = middle;
-      result.uvB = uv;
-    }
-  } else if (bends.b == worst) {
-    vec3 middle = arcMiddle(piece.c, piece.a);
-    vec2 uv = arcMiddleUv(piece.c, piece.a, piece.uvC, piece.uvA);
-    if (which == 0u) {
-      result.a = middle;
-      result.uvA = uv;
-    } else {
-      result.c = middle;
-      result.uvC = uv;
-    }
-  } else {
-    vec3 middle = arcMiddle(piece.a, piece.b);
-    vec2 uv = arcMiddleUv(piece.a, piece.b, piece.uvA, piece.uvB);
-    if (which == 0u) {
-      result.b = middle;
-      result.uvB = uv;
-    } else {
-      result.a = middle;
-      result.uvA = uv;
-    }
-  }
-  return result;
-}
-
-// The pieces of a triangle are the leaves of a binary tree, visited from the left. No stack is kept: a leaf is found from the root
-// again, by one bit of `path` a level.
-const int kMostHalvings = 24;
-
-struct PieceWalk {
-  uint path;
-  int depth;  // 0: the whole triangle
+struct PieceHalves {
+  Piece first, second;
 };
 
-GNOMON_FN PieceWalk wholeTriangle() {
-  PieceWalk walk;
-  walk.path = 0u;
-  walk.depth = 0;
-  return walk;
+GNOMON_FN PieceHalves halvesOf(int side, int layer, Piece piece, bool drawnStraight) {
+  Bends bends = pieceBends(side, layer, piece, drawnStraight);
+  float worst = worstBend(bends);
+  PieceHalves halves;
+  halves.first = piece;
+  halves.second = piece;
+  if (bends.a == worst) {
+    halves.first.c = halves.second.b = arcMiddle(piece.b, piece.c);
+    halves.first.uvC = halves.second.uvB = arcMiddleUv(piece.b, piece.c, piece.uvB, piece.uvC);
+  } else if (bends.b == worst) {
+    halves.first.a = halves.second.c = arcMiddle(piece.c, piece.a);
+    halves.first.uvA = halves.second.uvC = arcMiddleUv(piece.c, piece.a, piece.uvC, piece.uvA);
+  } else {
+    halves.first.b = halves.second.a = arcMiddle(piece.a, piece.b);
+    halves.first.uvB = halves.second.uvA = arcMiddleUv(piece.a, piece.b, piece.uvA, piece.uvB);
+  }
+  return halves;
 }
 
-GNOMON_FN PieceWalk firstHalf(PieceWalk walk) {
-  walk.path = walk.path & ~(1u << uint(walk.depth));
-  walk.depth = walk.depth + 1;
-  return walk;
-}
-
-// To the next piece to the right that has not been visited; depth 0 where there is none.
-GNOMON_FN PieceWalk nextPiece(PieceWalk walk) {
-  while (walk.depth > 0 && (walk.path >> uint(walk.depth - 1) & 1u) == 1u) walk.depth = walk.depth - 1;
-  if (walk.depth > 0) walk.path = walk.path | (1u << uint(walk.depth - 1));
-  return walk;
-}
-
-GNOMON_FN Piece pieceAt(int layer, Piece whole, bool drawnStraight, PieceWalk walk) {
-  Piece piece = whole;
-  for (int i = 0; i < walk.depth; ++i) piece = halfOf(layer, piece, drawnStraight, walk.path >> uint(i) & 1u);
-  return piece;
-}
+// Second halves that wait for the first ones to be finished; the pieces of a triangle of 180 degrees are 2^-12 of that at this depth.
+const int kMostWaiting = 24;
 
 // A piece may be drawn with straight edges where all of them stay within half a texel, which is 1 / side.
 GNOMON_FN bool isDrawnStraight(int side, int layer, Piece piece) {
-  return worstBend(pieceBends(layer, piece, true)) <= 1.0f / float(side);
+  return worstBend(pieceBends(side, layer, piece, true)) <= 1.0f / float(side);
 }
 
-// Whether none of a piece can be seen: all beyond the rim, and so far that no held texel's centre is there.
+// Whether none of a piece is drawn.
 GNOMON_FN bool isBeyondRim(int side, int layer, Piece piece) {
-  float rim = 1.0f + 1.5f / float(side);
-  float rimW = (1.0f - rim * rim) / (1.0f + rim * rim);
+  float rimW = piecesRimW(side);
   float axis = paraboloidAxisZ(layer);
   return piece.a.z * axis < rimW * length(piece.a) && piece.b.z * axis < rimW * length(piece.b) &&
          piece.c.z * axis < rimW * length(piece.c);
@@ -199,7 +159,7 @@ GNOMON_FN bool isWorthHalving(int side, int layer, Piece piece, QuadBound bound)
     wasted -= quadArea(pa, vec2(b.x, b.y) * (1.0f / (lb + b.z)), vec2(c.x, c.y) * (1.0f / (lc + c.z)), pa);
   }
   if (wasted < kWastedShare * enclosed || wasted * 0.25f * float(side) * float(side) < kWastedTexels) return false;
-  Bends bends = pieceBends(layer, piece, false);
+  Bends bends = pieceBends(side, layer, piece, false);
   float worst = worstBend(bends);
   // A quarter of a texel's bend is nothing to gain by.
   if (worst * float(side) < 0.5f) return false;

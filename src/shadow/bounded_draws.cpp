@@ -63,13 +63,17 @@ void BoundedDraws::record(gpu::Commands& commands, const SceneBuffers& scene, co
   for (const Piece& piece : batch) {
     const BoundPush push{layer, piece.facing, piece.firstTriangle, piece.triangleCount, piece.instance};
     const uint32_t groups = (piece.triangleCount + glsl::kBoundGroupSize - 1) / glsl::kBoundGroupSize;
-    commands.dispatch(program(shader), {groups, 1, 1}, gpu::asPush(push),
-                      {{glsl::kBindPositions, scene.positions},
-                       {glsl::kBindTriangles, scene.triangles},
-                       {glsl::kBindInstances, scene.instances},
-                       {glsl::kBindMap, mapUniforms},
-                       {glsl::kBindBoundedTriangles, triangles_},
-                       {glsl::kBindBoundedDraw, arguments_}});
+    std::vector<gpu::Binding> bindings = {
+        {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},
+        {glsl::kBindInstances, scene.instances}, {glsl::kBindUvs, scene.uvs},
+        {glsl::kBindMap, mapUniforms},           {glsl::kBindBoundedTriangles, triangles_},
+        {glsl::kBindBoundedDraw, arguments_}};
+    const gpu::ComputeProgram& found = program(shader);
+    std::erase_if(bindings, [&](const gpu::Binding& binding) {
+      return std::ranges::none_of(found.interface().bindings,
+                                  [&](const auto& declared) { return declared.index == binding.index; });
+    });
+    commands.dispatch(found, {groups, 1, 1}, gpu::asPush(push), bindings);
   }
   commands.barrier("triangles and their count are written -> the draw reads them");
 }

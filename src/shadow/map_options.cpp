@@ -15,7 +15,7 @@ constexpr std::array<const char*, 3> kWindowFitNames = {"none", "tight", "focuse
 constexpr std::array<const char*, 4> kWarpNames = {"none", "psm", "lispsm", "tsm"};
 constexpr std::array<const char*, 2> kSnapNames = {"off", "on"};
 constexpr std::array<const char*, 2> kCubeDepthNames = {"hyperbolic", "radial"};
-constexpr std::array<const char*, 2> kParaboloidRasterNames = {"vertex", "exact"};
+constexpr std::array<const char*, 3> kParaboloidRasterNames = {"vertex", "tessellated", "exact"};
 
 size_t parseName(const char* flag, const std::string& name, std::span<const char* const> names) {
   std::string choices;
