@@ -42,6 +42,9 @@ LayerShaders shadersFor(ParaboloidRaster raster) {
     shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
     shaders.depth = shaders.depthMasked = shaders.secondDepth = shaders.peel = kFragment;
     shaders.bounds = "omni/bound_in_paraboloid.comp.glsl";
+  } else if (raster == ParaboloidRaster::Tessellated) {
+    shaders.vertex = "omni/pull_straight_triangle.vert.glsl";
+    shaders.bounds = "omni/cut_for_paraboloid.comp.glsl";
   } else {
     shaders.vertex = "omni/project_to_paraboloid.vert.glsl";
     shaders.mirroredLayers = 0b10;

@@ -197,9 +197,9 @@ FittedVolume fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit 
   constexpr const char* kFragment = "shadow/draw_bounded_triangle.frag.glsl";
   LayerShaders& shaders = columns.shaders;
   shaders.projective = false;
-  shaders.vertex = "vsv/bound_in_epipolar.vert.glsl";
+  shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
   shaders.depth = shaders.depthMasked = shaders.secondDepth = shaders.peel = kFragment;
-  shaders.drawnAs = DrawnAs::Bounds;
+  shaders.bounds = "vsv/bound_in_epipolar.comp.glsl";
   return volume;
 }
 

@@ -20,6 +20,6 @@ void main() {
   float w = posL.z * paraboloidAxisZ(layer);
   // The opposite pole lies at infinity; the horizon cuts what comes near it.
   float scale = 1.0f / max(radius + w, 1e-3f * radius);
-  gl_Position = vec4(posL.x * scale, -posL.y * scale, mapDepth(shadowMap, layer, posL), 1.0f);
+  gl_Position = vec4(posL.x * scale, -posL.y * scale, paraboloidDepth(shadowMap, posL), 1.0f);
   gl_ClipDistance[0] = w;
 }

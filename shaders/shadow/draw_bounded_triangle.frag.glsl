@@ -38,13 +38,13 @@ void main() {
   triangle.sideB = sideB;
   triangle.sideC = sideC;
   ivec2 texel = ivec2(gl_FragCoord.xy);
-  Ray ray = mapTexelRay(map, layer, mapTexelCenter(map, texel));
+  // mapTexelCenter, which the rasterizer counts for us.
+  Ray ray = mapTexelRay(map, layer, gl_FragCoord.xy / mapTexelCounts(map));
   vec3 distances = sideDistances(triangle, ray.dir);
-  if (!isWithin(distances)) discard;
   float along = 1.0f / dot(inverseNormal, ray.dir);
   float depth = mapDepth(map, layer, ray.dir * along);
   // As a near plane would: what is nearer than the near end is not in the map.
-  if (!(depth >= 0.0f) || !mapHoldsTexel(map, layer, texel)) discard;
+  if (!isWithin(distances) || !(depth >= 0.0f) || !mapHoldsTexel(map, layer, texel)) discard;
   if (kMasked == 1 && isHoleAt(distances)) discard;
   if (kPass == 2 && depth <= texelFetch(mapDepthLayers, ivec3(texel, layer), 0).x + tolerance) discard;
   gl_FragDepth = depth;

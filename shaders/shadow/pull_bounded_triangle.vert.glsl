@@ -14,9 +14,12 @@ void main() {
   if (corner == 2u || corner == 3u) at = found[i].p2;
   if (corner == 4u) at = found[i].p3;
   gl_Position = vec4(at, 0.5f, 1.0f);
-  sideA = found[i].sideA;
-  sideB = found[i].sideB;
-  sideC = found[i].sideC;
-  inverseNormal = found[i].inverseNormal;
-  triangleAndInstance = uvec2(found[i].triangle, found[i].instance);
+  // Flat: the first corner of each triangle speaks for it.
+  if (corner == 0u || corner == 3u) {
+    sideA = found[i].sideA;
+    sideB = found[i].sideB;
+    sideC = found[i].sideC;
+    inverseNormal = found[i].inverseNormal;
+    triangleAndInstance = uvec2(found[i].triangle, found[i].instance);
+  }
 }

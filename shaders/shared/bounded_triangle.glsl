@@ -8,8 +8,16 @@
 GNOMON_SHARED_BEGIN
 
 const int kBindBoundedTriangles = 17;  // BoundedTriangle[]
-const int kBindBoundedDraw = 18;       // a VkDrawIndirectCommand: uint vertexCount, and three more
+const int kBindBoundedDraw = 18;       // BoundedDraw
 const int kBoundGroupSize = 64;
+
+// How many there are.
+struct BoundedDraw {
+  uint vertexCount;  // the front is a VkDrawIndirectCommand
+  uint instanceCount, firstVertex, firstInstance;
+  uint extraCount;  // triangles beyond one for each of the batch, which were cut in pieces
+};
+const uint kMostExtraTriangles = 1u << 18u;  // room for them in a batch
 
 // Four corners that enclose a triangle's projection, on the layer's square: (-1, -1) is where u = v = 0.
 struct BoundedTriangle {
@@ -25,5 +33,6 @@ GNOMON_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(gnomon::glsl::BoundedTriangle) == 88);
 static_assert(offsetof(gnomon::glsl::BoundedTriangle, instance) == 84);
+static_assert(sizeof(gnomon::glsl::BoundedDraw) == 20);
 #endif
 #endif

@@ -104,21 +104,9 @@ GNOMON_FN EpipolarBox epipolarBox(EpipolarGrid grid, LightTriangle t) {
   return box;
 }
 
-// Corner 0 .. 5 of two triangles, in columns. A box over the seam of theta is drawn by one triangle on each side of it: its edge on the inner
-// side, its tip 16 turns beyond the layer, so that within the layer it narrows by at most 1/16, and its edge is 16/15 as long.
-GNOMON_FN vec2 epipolarBoundCorner(EpipolarGrid grid, EpipolarBox box, int corner) {
-  float turn = 2.0f * kPi / grid.thetaStep;
-  if (box.allRound || box.high.x <= turn) {
-    bool right = corner == 1 || corner == 2 || corner == 3;
-    bool below = corner == 2 || corner == 3 || corner == 4;
-    return vec2(right ? box.high.x : box.low.x, below ? box.high.y : box.low.y);
-  }
-  bool second = corner >= 3;
-  int at = second ? corner - 3 : corner;
-  float edge = second ? box.high.x - turn : box.low.x;
-  if (at == 2) return vec2(second ? edge - 16.0f * turn : edge + 16.0f * turn, 0.5f * (box.low.y + box.high.y));
-  float grow = (box.high.y - box.low.y) * (1.0f / 30.0f);
-  return vec2(edge, at == 0 ? box.low.y - grow : box.high.y + grow);
+// Whether a box lies over the seam of theta: its part beyond the last column is drawn once more, a turn lower.
+GNOMON_FN bool epipolarBoxOverSeam(EpipolarGrid grid, EpipolarBox box) {
+  return !box.allRound && box.high.x > 2.0f * kPi / grid.thetaStep;
 }
 
 GNOMON_SHARED_END

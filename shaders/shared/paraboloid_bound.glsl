@@ -164,8 +164,9 @@ GNOMON_FN QuadBound rimBound(int layer, LightTriangle triangle, vec3 a, vec3 b, 
 GNOMON_FN QuadBound paraboloidBound(int side, int layer, LightTriangle triangle) {
   // Centres of texels that the rim touches lie at most half a diagonal, 0.71 texels, beyond it; a texel is 2 / side.
   float rim = 1.0f + 1.5f / float(side);
-  // The rasterizer rounds corners to 1/256 of a texel, and the corners here are good to a few 1e-7.
-  float margin = 0.0625f / float(side) + 1e-6f;
+  // The rasterizer rounds corners to 1/256 of a texel, and the corners here are good to a few 1e-7; those of pieces
+  // (paraboloid_pieces.glsl) to 2^-23 times the 32 that isWorthHalving allows, 4e-6.
+  float margin = 0.0625f / float(side) + 5e-6f;
   vec3 a = layerFromLight(layer, triangle.a);
   vec3 b = layerFromLight(layer, triangle.b);
   vec3 c = layerFromLight(layer, triangle.c);

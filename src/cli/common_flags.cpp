@@ -220,7 +220,8 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
           "x,y,z: where the first hemisphere looks; auto: the seam is turned away from what the camera sees")
       ->capture_default_str();
   verb.add_option("--paraboloid-raster", flags.paraboloidRaster,
-                  "exact: each texel's ray decides; vertex: edges are drawn straight, which they are not")
+                  "exact: each texel's ray decides; vertex: edges are drawn straight, which they are not; "
+                  "tessellated: triangles are cut until that is right to half a texel")
       ->capture_default_str();
   addFitFlags(verb, flags);
   addVolumeFlags(verb, flags);

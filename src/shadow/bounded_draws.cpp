@@ -49,26 +49,31 @@ void BoundedDraws::record(gpu::Commands& commands, const SceneBuffers& scene, co
                           const std::string& shader, int layer, const Batch& batch) {
   if (triangles_.handle() == VK_NULL_HANDLE) {
     triangles_ = gpu::Buffer(
-        device_, {.name = "bounded triangles", .size = kBatchTriangles * sizeof(glsl::BoundedTriangle)});
+        device_, {.name = "bounded triangles",
+                  .size = (kBatchTriangles + glsl::kMostExtraTriangles) * sizeof(glsl::BoundedTriangle)});
     arguments_ = gpu::Buffer(
         device_, {.name = "bounded draw",
-                  .size = sizeof(VkDrawIndirectCommand),
+                  .size = sizeof(glsl::BoundedDraw),
                   .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
-    noArguments_ =
-        gpu::createBufferWith(device_, "no bounded draw", std::vector<VkDrawIndirectCommand>{{0, 1, 0, 0}});
+    noArguments_ = gpu::createBufferWith(device_, "no bounded draw",
+                                         std::vector<glsl::BoundedDraw>{{.instanceCount = 1}});
   }
-  commands.copy(noArguments_, arguments_, sizeof(VkDrawIndirectCommand));
+  commands.copy(noArguments_, arguments_, sizeof(glsl::BoundedDraw));
   commands.barrier("the count is zero -> triangles are counted");
   for (const Piece& piece : batch) {
     const BoundPush push{layer, piece.facing, piece.firstTriangle, piece.triangleCount, piece.instance};
     const uint32_t groups = (piece.triangleCount + glsl::kBoundGroupSize - 1) / glsl::kBoundGroupSize;
-    commands.dispatch(program(shader), {groups, 1, 1}, gpu::asPush(push),
-                      {{glsl::kBindPositions, scene.positions},
-                       {glsl::kBindTriangles, scene.triangles},
-                       {glsl::kBindInstances, scene.instances},
-                       {glsl::kBindMap, mapUniforms},
-                       {glsl::kBindBoundedTriangles, triangles_},
-                       {glsl::kBindBoundedDraw, arguments_}});
+    std::vector<gpu::Binding> bindings = {
+        {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},
+        {glsl::kBindInstances, scene.instances}, {glsl::kBindUvs, scene.uvs},
+        {glsl::kBindMap, mapUniforms},           {glsl::kBindBoundedTriangles, triangles_},
+        {glsl::kBindBoundedDraw, arguments_}};
+    const gpu::ComputeProgram& found = program(shader);
+    std::erase_if(bindings, [&](const gpu::Binding& binding) {
+      return std::ranges::none_of(found.interface().bindings,
+                                  [&](const auto& declared) { return declared.index == binding.index; });
+    });
+    commands.dispatch(found, {groups, 1, 1}, gpu::asPush(push), bindings);
   }
   commands.barrier("triangles and their count are written -> the draw reads them");
 }

@@ -23,7 +23,8 @@ struct LayerShaders {
   // Empty: indexed triangles, whose corners the vertex shader projects and which the rasterizer culls by
   // winding. Else a compute shader that writes the triangles a layer shows, each with four corners around its
   // projection (shared/bounded_triangle.glsl): these are drawn by shadow/pull_bounded_triangle.vert.glsl, and
-  // the fragment shaders decide each texel.
+  // the fragment shaders decide each texel. Or one that writes triangles of its own for a vertex shader of
+  // its own, in the same room (shared/straight_triangle.glsl).
   const char* bounds = "";
   // One bit a layer that mirrors: there, what winds counter-clockwise seen from the light is clockwise on the
   // layer.

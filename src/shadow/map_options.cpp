@@ -17,7 +17,7 @@ constexpr std::array<const char*, 3> kWindowFitNames = {"none", "tight", "focuse
 constexpr std::array<const char*, 4> kWarpNames = {"none", "psm", "lispsm", "tsm"};
 constexpr std::array<const char*, 2> kSnapNames = {"off", "on"};
 constexpr std::array<const char*, 2> kCubeDepthNames = {"hyperbolic", "radial"};
-constexpr std::array<const char*, 2> kParaboloidRasterNames = {"vertex", "exact"};
+constexpr std::array<const char*, 3> kParaboloidRasterNames = {"vertex", "tessellated", "exact"};
 
 constexpr std::array<const char*, 2> kVolumeSourceNames = {"resample", "direct"};
 constexpr std::array<const char*, 2> kVolumeFitNames = {"frustum", "full"};

@@ -34,7 +34,8 @@ enum class CubeDepth {
 // How the triangles of a dual paraboloid are rasterized.
 enum class ParaboloidRaster {
   Vertex,  // corners are projected, edges are drawn straight: wrong for large triangles (Brabec et al. 2002)
-  Exact,   // each texel's ray meets the triangle or does not
+  Tessellated,  // the same, of triangles cut until their edges are straight to within half a texel
+  Exact,        // each texel's ray meets the triangle or does not
 };
 
 inline constexpr int kMostCascades = 4;
@@ -83,10 +84,7 @@ WindowFit parseWindowFit(const std::string& name);                // none, tight
 Warp parseWarp(const std::string& name);                          // none, psm, lispsm, tsm
 CubeDepth parseCubeDepth(const std::string& name);                // hyperbolic, radial
 bool parseSnap(const std::string& name);                          // on, off
-ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, exact
-VolumeSize parseVolumeSize(const std::string& text);              // AxTxP
-VolumeSource parseVolumeSource(const std::string& name);          // resample, direct
-VolumeFit parseVolumeFit(const std::string& name);                // frustum, full
+ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, tessellated, exact
 const char* windowFitName(WindowFit fit);
 const char* warpName(Warp warp);
 const char* cubeDepthName(CubeDepth depth);

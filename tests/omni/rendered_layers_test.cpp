@@ -31,6 +31,15 @@ std::vector<Kind> kinds() {
            {.paraboloidAxisW = glm::normalize(glm::dvec3(1.0, 0.3, -0.7))}}};
 }
 
+// And what is not exact.
+std::vector<Kind> kindsOfAllRasters() {
+  std::vector<Kind> all = kinds();
+  all.push_back({"paraboloid tessellated",
+                 paraboloidParameterization(),
+                 {.paraboloidRaster = ParaboloidRaster::Tessellated}});
+  return all;
+}
+
 class RenderedLayers : public gpu::GpuTest {
  protected:
   World open(const char* scene) { return test::openWorld(device(), findGeneratedScene(scene)->make()); }
@@ -116,7 +125,7 @@ TEST_F(RenderedLayers, EveryTexelHoldsTheFirstHitOfItsRay) {
 TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
   for (const char* scene : {"contact", "sheets", "atrium"}) {
     const World world = open(scene);
-    for (const Kind& kind : kinds()) {
+    for (const Kind& kind : kindsOfAllRasters()) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 64, kind.options);
       for (const CullMode cull : {CullMode::None, CullMode::Solids}) {
         const Layers blended = test::drawLayers(device(), world, fitted, cull, MapContent::TwoLayers);
@@ -140,7 +149,7 @@ TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
 TEST_F(RenderedLayers, CullingSolidsChangesOnlySilhouettes) {
   const World world = open("contact");
   ASSERT_TRUE(std::ranges::any_of(world.buffers.draws, &Draw::solid));
-  for (const Kind& kind : kinds()) {
+  for (const Kind& kind : kindsOfAllRasters()) {
     const FittedMap fitted = test::fitWhole(world, kind.map, 128, kind.options);
     const Layers all = test::drawLayers(device(), world, fitted, CullMode::None);
     const Layers culled = test::drawLayers(device(), world, fitted, CullMode::Solids);

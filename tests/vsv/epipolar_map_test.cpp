@@ -151,19 +151,12 @@ TEST(EpipolarMap, TheChosenVoxelIsThatOfAlgorithmTwo) {
   }
 }
 
-bool isInTriangle(dvec2 p, dvec2 a, dvec2 b, dvec2 c) {
-  const auto side = [&](dvec2 from, dvec2 to) {
-    return (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x);
-  };
-  const double u = side(a, b), v = side(b, c), w = side(c, a);
-  return (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
-}
-
+// By the box, or over the seam of theta by its part a turn lower (shaders/vsv/bound_in_epipolar.comp.glsl).
 bool isDrawn(const EpipolarGrid& grid, const EpipolarBox& box, dvec2 at) {
-  std::array<dvec2, 6> corners;
-  for (int i = 0; i < 6; ++i) corners[static_cast<size_t>(i)] = dvec2(epipolarBoundCorner(grid, box, i));
-  return isInTriangle(at, corners[0], corners[1], corners[2]) ||
-         isInTriangle(at, corners[3], corners[4], corners[5]);
+  const auto within = [&](double turn) {
+    return at.x + turn >= box.low.x && at.x + turn <= box.high.x && at.y >= box.low.y && at.y <= box.high.y;
+  };
+  return within(0.0) || (epipolarBoxOverSeam(grid, box) && within(2.0 * kPi / grid.thetaStep));
 }
 
 // Large and small ones, slivers along a meridian, about either pole, across the seam, and with the light
@@ -210,7 +203,7 @@ TEST(EpipolarBound, EveryColumnWhoseRayMeetsTheTriangleIsDrawn) {
       const LightTriangle triangle = awkwardTriangle(random, n);
       const EpipolarBox box = epipolarBox(grid, triangle);
       allRound += box.allRound ? 1 : 0;
-      wrapped += !box.allRound && box.high.x > 2.0f * kPi / grid.thetaStep ? 1 : 0;
+      wrapped += epipolarBoxOverSeam(grid, box) ? 1 : 0;
       for (int y = 0; y < map.rows; ++y) {
         for (int x = 0; x < map.side; ++x) {
           const vec3& dir = rays[static_cast<size_t>(y * map.side + x)];

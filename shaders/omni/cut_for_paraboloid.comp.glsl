@@ -1,0 +1,78 @@
+// The triangles that a layer of a paraboloid map shows, one invocation each, cut until they may be drawn with straight edges
+// (paraboloid_pieces.glsl).
+//
+// mapDepth is called by its case: lavapipe inlines uniforms that loops and branches depend on, and a switch in the loop had it
+// compile the shader again for every dispatch (measured: 12 times slower).
+#include "shared/paraboloid_pieces.glsl"
+#include "shared/straight_triangle.glsl"
+
+#include "shadow/light_triangle_fetch.glsl"
+
+layout(local_size_x = kBoundGroupSize) in;
+
+layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
+layout(scalar, binding = kBindBoundedTriangles) writeonly buffer Found { StraightTriangle found[]; };
+layout(scalar, binding = kBindBoundedDraw) buffer DrawArguments { BoundedDraw draw; };
+
+layout(push_constant, scalar) uniform Push {
+  int layer;
+  int facing;  // 1: only what winds counter-clockwise seen from the light, -1: only the rest, 0: both
+  uint firstTriangle;
+  uint triangleCount;
+  uint instance;
+};
+
+vec4 onLayer(vec3 posL) {
+  vec3 p = layerFromLight(layer, posL);
+  float radius = length(p);
+  // Near the opposite pole only where there was no room to cut; the rim cuts what comes near it.
+  vec2 at = vec2(p.x, p.y) * (1.0f / max(radius + p.z, 1e-3f * radius));
+  // As piecesRimW has it: between corners the square of the distance is interpolated, by which an edge of the longest chord,
+  // sqrt(8 / side), is cut up to 1 / side too early.
+  float rim = 1.0f + 2.5f / float(shadowMap.side);
+  return vec4(at.x, -at.y, paraboloidDepth(shadowMap, posL), rim * rim - dot(at, at));
+}
+
+void main() {
+  if (gl_GlobalInvocationID.x >= triangleCount) return;
+  uint index = firstTriangle + gl_GlobalInvocationID.x;
+  LightTriangle triangle = fetchLightTriangle(index, instance);
+  if (facing != 0 && float(facing) * triangle.volume >= 0.0f) return;
+  uvec3 v = triangles[index];
+  Piece whole;
+  whole.a = triangle.a;
+  whole.b = triangle.b;
+  whole.c = triangle.c;
+  whole.uvA = uvs[v.x];
+  whole.uvB = uvs[v.y];
+  whole.uvC = uvs[v.z];
+  Piece waiting[kMostWaiting];
+  int waitingCount = 0;
+  Piece piece = whole;
+  bool more = true;
+  while (more) {
+    bool seen = !isBeyondRim(shadowMap.side, layer, piece);
+    if (seen && waitingCount < kMostWaiting && !isDrawnStraight(shadowMap.side, layer, piece) &&
+        atomicAdd(draw.extraCount, 1u) < kMostExtraTriangles) {
+      PieceHalves halves = halvesOf(shadowMap.side, layer, piece, true);
+      waiting[waitingCount] = halves.second;
+      ++waitingCount;
+      piece = halves.first;
+      continue;
+    }
+    if (seen) {
+      StraightTriangle result;
+      result.a = onLayer(piece.a);
+      result.b = onLayer(piece.b);
+      result.c = onLayer(piece.c);
+      result.uvA = piece.uvA;
+      result.uvB = piece.uvB;
+      result.uvC = piece.uvC;
+      result.instance = instance;
+      // In any order: the nearest depth is the same.
+      found[atomicAdd(draw.vertexCount, 3u) / 3u] = result;
+    }
+    more = waitingCount > 0;
+    if (more) piece = waiting[--waitingCount];
+  }
+}

@@ -1,0 +1,25 @@
+// A corner of a triangle that cut_for_paraboloid.comp.glsl found.
+#include "shared/straight_triangle.glsl"
+
+layout(scalar, binding = kBindBoundedTriangles) readonly buffer Found { StraightTriangle found[]; };
+
+layout(location = 0) out vec2 uv;
+layout(location = 1) out flat uint instanceIndex;
+
+void main() {
+  uint i = uint(gl_VertexIndex) / 3u;
+  uint corner = uint(gl_VertexIndex) % 3u;
+  vec4 at = found[i].a;
+  uv = found[i].uvA;
+  if (corner == 1u) {
+    at = found[i].b;
+    uv = found[i].uvB;
+  }
+  if (corner == 2u) {
+    at = found[i].c;
+    uv = found[i].uvC;
+  }
+  instanceIndex = found[i].instance;
+  gl_Position = vec4(at.x, at.y, at.z, 1.0f);
+  gl_ClipDistance[0] = at.w;
+}

@@ -1,0 +1,173 @@
+// Triangles cut into pieces whose edges are nearly straight on a layer of a paraboloid map.
+//
+// An edge's arc has the curvature |n.w| (paraboloid_bound.glsl) and leaves its chord by the sagitta, at most |n.w| chord^2 / 4: cut in
+// the middle, a quarter of that is left on each side. So a triangle is cut in two from the middle of the edge that bends most to the
+// corner opposite, and its halves again, until no edge bends too much. Where an edge is cut depends on its two ends alone and not on
+// which comes first: triangles that share it are cut alike, and no crack opens.
+#ifndef GNOMON_PARABOLOID_PIECES_GLSL
+#define GNOMON_PARABOLOID_PIECES_GLSL
+
+#include "shared/paraboloid_bound.glsl"
+
+GNOMON_SHARED_BEGIN
+
+struct Piece {
+  vec3 a, b, c;  // L
+  vec2 uvA, uvB, uvC;
+};
+
+// The place on an edge that halves its angle at the light: on (p, q) at |p| : |q|. Without fused products it is the same for (q, p).
+GNOMON_FN vec3 arcMiddle(vec3 p, vec3 q) {
+  GNOMON_PRECISE float lp = length(p);
+  GNOMON_PRECISE float lq = length(q);
+  GNOMON_PRECISE vec3 fromP = p * lq;
+  GNOMON_PRECISE vec3 fromQ = q * lp;
+  GNOMON_PRECISE vec3 middle = (fromP + fromQ) * (1.0f / (lp + lq));
+  return middle;
+}
+
+GNOMON_FN vec2 arcMiddleUv(vec3 p, vec3 q, vec2 uvP, vec2 uvQ) {
+  float lp = length(p);
+  float lq = length(q);
+  return (uvP * lq + uvQ * lp) * (1.0f / (lp + lq));
+}
+
+// Along the layer's axis over distance, where what is drawn ends: centres of held texels lie up to 1.42 / side beyond the rim, and a
+// straight edge may stand off by 1 / side.
+GNOMON_FN float piecesRimW(int side) {
+  float rim = 1.0f + 2.5f / float(side);
+  return (1.0f - rim * rim) / (1.0f + rim * rim);
+}
+
+const float kBendsBeyondMeasure = 4.0f;  // as wide as two discs
+
+// How far, on the layer's plane, an edge drawn straight is from where it belongs. Ends in the layer's frame. Nothing of an edge
+// beyond the rim is seen; of one that reaches there the projection may be anywhere until it spans less than 60 degrees.
+GNOMON_FN float edgeBend(vec3 p, vec3 q, float rimW) {
+  float lp = length(p);
+  float lq = length(q);
+  if (p.z < rimW * lp && q.z < rimW * lq) return 0.0f;
+  if (lp == 0.0f || lq == 0.0f) return 0.0f;
+  if ((p.z < 0.0f || q.z < 0.0f) && dot(p, q) < 0.5f * lp * lq) return kBendsBeyondMeasure;
+  vec2 chord = vec2(q.x, q.y) * (1.0f / (lq + q.z)) - vec2(p.x, p.y) * (1.0f / (lp + p.z));
+  return arcBulge(p, q, chord);
+}
+
+// The same of depth: distances that are interpolated along the chord miss the middle's by `off`, as much as a shift by
+// off / (change of distance along the chord) would, or what half that width is at the middle's distance, seen face on.
+GNOMON_FN float edgeSink(vec3 p, vec3 q, float rimW) {
+  float lp = length(p);
+  float lq = length(q);
+  if (p.z < rimW * lp && q.z < rimW * lq) return 0.0f;
+  if (lp == 0.0f || lq == 0.0f) return 0.0f;
+  if ((p.z < 0.0f || q.z < 0.0f) && dot(p, q) < 0.5f * lp * lq) return kBendsBeyondMeasure;
+  vec2 chord = vec2(q.x, q.y) * (1.0f / (lq + q.z)) - vec2(p.x, p.y) * (1.0f / (lp + p.z));
+  float size = length(chord);
+  if (size == 0.0f) return 0.0f;
+  float middle = length(arcMiddle(p, q));
+  // Between a rim's texel and the pole's, a unit of the plane is 1 to 2 radians.
+  return (0.5f * (lp + lq) - middle) / (abs(lp - lq) / size + middle);
+}
+
+struct Bends {
+  float a, b, c;  // of the edges opposite
+};
+
+GNOMON_FN Bends pieceBends(int side, int layer, Piece piece, bool drawnStraight) {
+  vec3 a = layerFromLight(layer, piece.a);
+  vec3 b = layerFromLight(layer, piece.b);
+  vec3 c = layerFromLight(layer, piece.c);
+  float rimW = piecesRimW(side);
+  Bends bends;
+  bends.a = edgeBend(b, c, rimW);
+  bends.b = edgeBend(c, a, rimW);
+  bends.c = edgeBend(a, b, rimW);
+  if (drawnStraight) {
+    bends.a = max(bends.a, edgeSink(b, c, rimW));
+    bends.b = max(bends.b, edgeSink(c, a, rimW));
+    bends.c = max(bends.c, edgeSink(a, b, rimW));
+  }
+  return bends;
+}
+
+GNOMON_FN float worstBend(Bends bends) { return max(bends.a, max(bends.b, bends.c)); }
+
+struct PieceHalves {
+  Piece first, second;
+};
+
+GNOMON_FN PieceHalves halvesOf(int side, int layer, Piece piece, bool drawnStraight) {
+  Bends bends = pieceBends(side, layer, piece, drawnStraight);
+  float worst = worstBend(bends);
+  PieceHalves halves;
+  halves.first = piece;
+  halves.second = piece;
+  if (bends.a == worst) {
+    halves.first.c = halves.second.b = arcMiddle(piece.b, piece.c);
+    halves.first.uvC = halves.second.uvB = arcMiddleUv(piece.b, piece.c, piece.uvB, piece.uvC);
+  } else if (bends.b == worst) {
+    halves.first.a = halves.second.c = arcMiddle(piece.c, piece.a);
+    halves.first.uvA = halves.second.uvC = arcMiddleUv(piece.c, piece.a, piece.uvC, piece.uvA);
+  } else {
+    halves.first.b = halves.second.a = arcMiddle(piece.a, piece.b);
+    halves.first.uvB = halves.second.uvA = arcMiddleUv(piece.a, piece.b, piece.uvA, piece.uvB);
+  }
+  return halves;
+}
+
+// Second halves that wait for the first ones to be finished; the pieces of a triangle of 180 degrees are 2^-12 of that at this depth.
+const int kMostWaiting = 24;
+
+// A piece may be drawn with straight edges where all of them stay within half a texel, which is 1 / side.
+GNOMON_FN bool isDrawnStraight(int side, int layer, Piece piece) {
+  return worstBend(pieceBends(side, layer, piece, true)) <= 1.0f / float(side);
+}
+
+// Whether none of a piece is drawn.
+GNOMON_FN bool isBeyondRim(int side, int layer, Piece piece) {
+  float rimW = piecesRimW(side);
+  float axis = paraboloidAxisZ(layer);
+  return piece.a.z * axis < rimW * length(piece.a) && piece.b.z * axis < rimW * length(piece.b) &&
+         piece.c.z * axis < rimW * length(piece.c);
+}
+
+// What must be wasted before a piece is cut in two: texels, and a share of the bound, since halves have more rim than the whole, and the
+// rasterizer shades it in blocks. Swept on three scenes on lavapipe, 64 to 4096 texels and 0 to 0.5: from 1024 on the choice is
+// within noise, 256 without a share costs a scene of small triangles a fifth more.
+const float kWastedTexels = 1024.0f;
+const float kWastedShare = 0.5f;
+
+GNOMON_FN float quadArea(vec2 p0, vec2 p1, vec2 p2, vec2 p3) {
+  vec2 d = p2 - p0;
+  vec2 e = p3 - p1;
+  return 0.5f * abs(d.x * e.y - d.y * e.x);
+}
+
+// Whether two bounds of a piece's halves would enclose much less than the piece's own.
+GNOMON_FN bool isWorthHalving(int side, int layer, Piece piece, QuadBound bound) {
+  float enclosed = quadArea(bound.p0, bound.p1, bound.p2, bound.p3);
+  float wasted = enclosed;
+  vec3 a = layerFromLight(layer, piece.a);
+  vec3 b = layerFromLight(layer, piece.b);
+  vec3 c = layerFromLight(layer, piece.c);
+  float la = length(a);
+  float lb = length(b);
+  float lc = length(c);
+  if (la == 0.0f || lb == 0.0f || lc == 0.0f) return false;
+  if (a.z >= 0.0f && b.z >= 0.0f && c.z >= 0.0f) {
+    vec2 pa = vec2(a.x, a.y) * (1.0f / (la + a.z));
+    wasted -= quadArea(pa, vec2(b.x, b.y) * (1.0f / (lb + b.z)), vec2(c.x, c.y) * (1.0f / (lc + c.z)), pa);
+  }
+  if (wasted < kWastedShare * enclosed || wasted * 0.25f * float(side) * float(side) < kWastedTexels) return false;
+  Bends bends = pieceBends(side, layer, piece, false);
+  float worst = worstBend(bends);
+  // A quarter of a texel's bend is nothing to gain by.
+  if (worst * float(side) < 0.5f) return false;
+  // The middle of an edge that passes nearer to the light than a 32nd of its ends is rounded by more than the bound's margin.
+  vec3 p = bends.a == worst ? b : (bends.b == worst ? c : a);
+  vec3 q = bends.a == worst ? c : (bends.b == worst ? a : b);
+  return length(arcMiddle(p, q)) * 64.0f > length(p) + length(q);
+}
+
+GNOMON_SHARED_END
+#endif

@@ -1,0 +1,22 @@
+// Triangles that may be drawn with straight edges: what cut_for_paraboloid.comp.glsl finds for a layer and the draw after it reads,
+// at the same bindings as bounded_triangle.glsl and in the same room.
+#ifndef GNOMON_STRAIGHT_TRIANGLE_GLSL
+#define GNOMON_STRAIGHT_TRIANGLE_GLSL
+
+#include "shared/bounded_triangle.glsl"
+
+GNOMON_SHARED_BEGIN
+
+struct StraightTriangle {
+  vec4 a, b, c;  // x and y on the layer's square, (-1, -1) where u = v = 0; depth; how far within the rim, for gl_ClipDistance
+  vec2 uvA, uvB, uvC;
+  uint instance;
+};
+
+GNOMON_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(gnomon::glsl::StraightTriangle) == 76);
+static_assert(sizeof(gnomon::glsl::StraightTriangle) <= sizeof(gnomon::glsl::BoundedTriangle));
+#endif
+#endif
