@@ -39,7 +39,8 @@ GNOMON_FN float piecesRimW(int side) {
   return (1.0f - rim * rim) / (1.0f + rim * rim);
 }
 
-const float kBendsBeyondMeasure = 4.0f;  // as wide as two discs
+// Wider than two discs; the wider the angle the more, so that the longest edge is cut first.
+GNOMON_FN float bendBeyondMeasure(vec3 p, vec3 q) { return 5.0f - dot(p, q) / (length(p) * length(q)); }
 
 // How far, on the layer's plane, an edge drawn straight is from where it belongs. Ends in the layer's frame. Nothing of an edge
 // beyond the rim is seen; of one that reaches there the projection may be anywhere until it spans less than 60 degrees.
@@ -48,7 +49,7 @@ GNOMON_FN float edgeBend(vec3 p, vec3 q, float rimW) {
   float lq = length(q);
   if (p.z < rimW * lp && q.z < rimW * lq) return 0.0f;
   if (lp == 0.0f || lq == 0.0f) return 0.0f;
-  if ((p.z < 0.0f || q.z < 0.0f) && dot(p, q) < 0.5f * lp * lq) return kBendsBeyondMeasure;
+  if ((p.z < 0.0f || q.z < 0.0f) && dot(p, q) < 0.5f * lp * lq) return bendBeyondMeasure(p, q);
   vec2 chord = vec2(q.x, q.y) * (1.0f / (lq + q.z)) - vec2(p.x, p.y) * (1.0f / (lp + p.z));
   return arcBulge(p, q, chord);
 }
@@ -60,7 +61,7 @@ GNOMON_FN float edgeSink(vec3 p, vec3 q, float rimW) {
   float lq = length(q);
   if (p.z < rimW * lp && q.z < rimW * lq) return 0.0f;
   if (lp == 0.0f || lq == 0.0f) return 0.0f;
-  if ((p.z < 0.0f || q.z < 0.0f) && dot(p, q) < 0.5f * lp * lq) return kBendsBeyondMeasure;
+  if ((p.z < 0.0f || q.z < 0.0f) && dot(p, q) < 0.5f * lp * lq) return bendBeyondMeasure(p, q);
   vec2 chord = vec2(q.x, q.y) * (1.0f / (lq + q.z)) - vec2(p.x, p.y) * (1.0f / (lp + p.z));
   float size = length(chord);
   if (size == 0.0f) return 0.0f;
