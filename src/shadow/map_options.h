@@ -85,6 +85,9 @@ Warp parseWarp(const std::string& name);                          // none, psm, 
 CubeDepth parseCubeDepth(const std::string& name);                // hyperbolic, radial
 bool parseSnap(const std::string& name);                          // on, off
 ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, tessellated, exact
+VolumeSize parseVolumeSize(const std::string& text);              // AxTxP
+VolumeSource parseVolumeSource(const std::string& name);          // resample, direct
+VolumeFit parseVolumeFit(const std::string& name);                // frustum, full
 const char* windowFitName(WindowFit fit);
 const char* warpName(Warp warp);
 const char* cubeDepthName(CubeDepth depth);

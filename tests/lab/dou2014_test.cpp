@@ -24,7 +24,7 @@ struct View {
       : session({.validation = true}, {.scene = "near-far", .camera = camera, .size = "256"}),
         passes(session.device(), session.view()),
         exact(computeExact(session, *parseMaps("paraboloid").front())),
-        maps(session, passes.map, fitMap(session, *parseMaps("paraboloid").front(), exact, 2048, {}).fitted,
+        maps(session, passes.renderers, fitMap(session, *parseMaps("paraboloid").front(), exact, 2048, {}).fitted,
              exact, CullMode::Solids),
         trial(session, passes, exact, maps) {}
 
