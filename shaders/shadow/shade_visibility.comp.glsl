@@ -44,35 +44,34 @@ Tap fetchTap(ShadowMap map, int layer, ivec2 texel) {
   return tap;
 }
 
-// The share of the filter's taps that are lit. Taps that no layer holds count for nothing.
-float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2 pixel) {
+// The share of the filter's taps that are lit; taps that no layer holds count for nothing. Without a filter the one tap is the texel that
+// holds the receiver, and with kDiagnose what it said. One path for all: the bias is compiled once, and compiling is what a run waits for.
+float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2 pixel, inout PixelDiagnosis pixelDiagnosis) {
   vec2 position = point.uv * mapTexelCounts(map);
   uint seed = pixelSeed(pixel);
   float lit = 0.0f;
   float weights = 0.0f;
   for (int i = 0; i < filterTapCount(kFilter); ++i) {
     FilterTap wanted = filterTap(kFilter, position, seed, i);
-    MapTexel found = mapTexelAcross(map, point.layer, wanted.texel, receiver.posL);
+    MapTexel found;
+    found.layer = point.layer;
+    found.texel = mapTexel(map, point.uv);
+    found.held = true;
+    if (kFilter != kFilterNone) found = mapTexelAcross(map, point.layer, wanted.texel, receiver.posL);
     if (!found.held) continue;
+    Tap tap = fetchTap(map, found.layer, found.texel);
     bool known;
-    if (biasLit(kMethod, map, shade.bias, receiver, fetchTap(map, found.layer, found.texel), known)) lit += wanted.weight;
+    bool tapLit = biasLit(kMethod, map, shade.bias, receiver, tap, known);
+    if (kDiagnose == 1) {
+      pixelDiagnosis.flags |= kPixelCovered | (tapLit ? kPixelLit : 0u) | (known ? 0u : kPixelUnknown);
+      if (receiverPlaneDepth(map, tap.layer, receiver, tap.ray).grazing) pixelDiagnosis.flags |= kPixelGrazing;
+      pixelDiagnosis.texel = packTexel(tap.layer, tap.texel);
+    }
     if (!known) return kUnknownVisibility;
+    if (tapLit) lit += wanted.weight;
     weights += wanted.weight;
   }
   return weights > 0.0f ? lit / weights : 1.0f;
-}
-
-// The texel that holds the receiver, and with kDiagnose what it said.
-float plainVisibility(ShadowMap map, Receiver receiver, MapPoint point, inout PixelDiagnosis pixelDiagnosis) {
-  Tap tap = fetchTap(map, point.layer, mapTexel(map, point.uv));
-  bool known;
-  bool lit = biasLit(kMethod, map, shade.bias, receiver, tap, known);
-  if (kDiagnose == 1) {
-    pixelDiagnosis.flags |= kPixelCovered | (lit ? kPixelLit : 0u) | (known ? 0u : kPixelUnknown);
-    if (receiverPlaneDepth(map, tap.layer, receiver, tap.ray).grazing) pixelDiagnosis.flags |= kPixelGrazing;
-    pixelDiagnosis.texel = packTexel(tap.layer, tap.texel);
-  }
-  return known ? (lit ? 1.0f : 0.0f) : kUnknownVisibility;
 }
 
 // Empty pixels and those beyond the map are lit; a surface that faces away is not.
@@ -85,8 +84,7 @@ float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosi
   receiver = biasReceiver(kMethod, map, shade.bias, receiver);
   MapPoint point = mapProject(map, receiver.posL);
   if (!point.covered) return 1.0f;
-  return kFilter == kFilterNone ? plainVisibility(map, receiver, point, pixelDiagnosis)
-                                : filteredVisibility(map, receiver, point, pixel);
+  return filteredVisibility(map, receiver, point, pixel, pixelDiagnosis);
 }
 
 void main() {

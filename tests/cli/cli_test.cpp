@@ -207,7 +207,8 @@ TEST_F(CliTest, RenderDrawsEveryKindOfPicture) {
 TEST_F(CliTest, AnExportedSceneComparesEqual) {
   for (const std::string scene : {"contact", "sheets", "crowd:20000"}) {
     ASSERT_EQ(run("scene " + scene + " -o @/scene.glb").exitCode, 0);
-    const std::string flags = " --size 96 --map-size 64 --repeats 1 --json @/";
+    const std::string flags =
+        " --biases none,second-depth,dual,adaptive --size 96 --map-size 64 --repeats 1 --json @/";
     ASSERT_EQ(run("compare " + scene + flags + "a.json").exitCode, 0);
     ASSERT_EQ(run("compare @/scene.glb" + flags + "b.json").exitCode, 0);
     auto a = nlohmann::json::parse(readFile(folder_ / "a.json"));
