@@ -87,7 +87,7 @@ TEST_F(VolumeCheckTest, AScanThatSkipsARowIsFound) {
 
 TEST_F(VolumeCheckTest, ColumnsThatAreExchangedAreFound) {
   ColumnBoundaries shifted = boundaries_;
-  std::ranges::rotate(shifted.first, shifted.first.begin() + 1);
+  std::rotate(shifted.first.begin(), shifted.first.begin() + 1, shifted.first.end());
   uint64_t expected = 0;
   for (size_t c = 0; c < shifted.first.size(); ++c)
     expected += static_cast<uint64_t>(std::abs(shifted.first[c] - boundaries_.first[c]));
