@@ -24,8 +24,9 @@ struct View {
       : session({.validation = true}, {.scene = "near-far", .camera = camera, .size = "256"}),
         passes(session.device(), session.view()),
         exact(computeExact(session, *parseMaps("paraboloid").front())),
-        maps(session, passes.renderers, fitMap(session, *parseMaps("paraboloid").front(), exact, 2048, {}).fitted,
-             exact, CullMode::Solids),
+        maps(session, passes.renderers,
+             fitMap(session, *parseMaps("paraboloid").front(), exact, 2048, {}).fitted, exact,
+             CullMode::Solids),
         trial(session, passes, exact, maps) {}
 
   double error(const char* bias, float glsl::BiasParams::*knob, float value) {

@@ -34,8 +34,9 @@ TEST(FitAndWarp, AdaptiveHasNeitherAcneNorLeakOnSlopeUnderAnyOfThem) {
     for (const MapOptions& options : all) {
       const std::string what = std::string(name) + " " + windowFitName(options.fit) + " " +
                                warpName(options.warp) + " " + std::to_string(options.cascades);
-      const DrawnMap drawn = drawMap(session, passes.renderers, fitMap(session, map, exact, 256, options).fitted,
-                                     exact, MapContent::OneLayer, CullMode::Solids);
+      const DrawnMap drawn =
+          drawMap(session, passes.renderers, fitMap(session, map, exact, 256, options).fitted, exact,
+                  MapContent::OneLayer, CullMode::Solids);
       const Judged none = judge(session, passes, drawn, exact, methodFor(session, {}, findBias("none")));
       EXPECT_GT(none.labels.count(Label::Acne), exact.receivers.scored / 50) << what;
       const Judged adaptive =
