@@ -129,7 +129,9 @@ TEST(Compare, NoPictureHasANanOrAnInfinity) {
       const Exact exact = computeExact(session, *map);
       const Fit fit =
           fitMap(session, *map, exact, 64, {.volumeSize = {.alpha = 64, .theta = 64, .phi = 128}});
-      for (const BiasMethod& bias : biasMethods()) {
+      // Those that divide, move the receiver, or read more than one depth.
+      for (const char* name : {"constant", "normal-offset", "receiver-plane", "dual", "adaptive-ehm"}) {
+        const BiasMethod& bias = findBias(name);
         if (!map->answers(bias)) continue;
         const DrawnMap drawn =
             drawMap(session, passes.renderers, fit.fitted, exact, bias.content, CullMode::Solids);
