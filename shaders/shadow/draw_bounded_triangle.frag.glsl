@@ -1,6 +1,9 @@
 // The non-linear rasterizer: the ray through a texel's centre meets the triangle or does not. It knows the parameterization by mapTexelRay,
 // mapHoldsTexel and mapDepth only; some compute shader has found a bound of the triangle's projection.
 // kPass: 0 the first layer, 1 and 2 the second one, by blending and by peeling (src/shadow/map_image.h).
+layout(constant_id = 2) const int kMapKind = 0;  // kMap*
+#define GNOMON_MAP_KIND kMapKind
+
 #include "shared/ray_triangle.glsl"
 #include "shared/shade.glsl"
 
@@ -19,7 +22,6 @@ layout(push_constant, scalar) uniform Push {
 
 layout(constant_id = 0) const int kMasked = 0;
 layout(constant_id = 1) const int kPass = 0;
-layout(constant_id = 2) const int kMapKind = kMapPlanar;
 
 layout(location = 0) out float secondDepth;
 
@@ -32,7 +34,6 @@ bool isHoleAt(vec3 distances) {
 
 void main() {
   ShadowMap map = shadowMap;
-  map.kind = kMapKind;
   LightTriangle triangle;
   triangle.sideA = sideA;
   triangle.sideB = sideB;

@@ -3,6 +3,11 @@
 // The method, the map's kind and its layer count are specialization constants, so that each pipeline holds one bias on one
 // map only, and reads the matrices of a single layer from constant addresses. kDiagnose also writes what decided the
 // pixel, of one tap; timings are taken without it.
+layout(constant_id = 0) const int kMethod = 0;   // kBias*
+layout(constant_id = 2) const int kMapKind = 0;  // kMap*
+#define GNOMON_BIAS_METHOD kMethod
+#define GNOMON_MAP_KIND kMapKind
+
 #include "shared/bias.glsl"
 #include "shared/filter.glsl"
 #include "shared/shade.glsl"
@@ -11,9 +16,7 @@
 
 layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 
-layout(constant_id = 0) const int kMethod = kBiasNone;
 layout(constant_id = 1) const int kDiagnose = 0;
-layout(constant_id = 2) const int kMapKind = kMapPlanar;
 layout(constant_id = 3) const int kLayerCount = 1;
 layout(constant_id = 5) const int kSecondLayer = 0;  // 1: the method reads z2
 layout(constant_id = 6) const int kFilter = kFilterNone;
@@ -28,7 +31,6 @@ layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagn
 
 ShadowMap specializedMap() {
   ShadowMap map = shadowMap;
-  map.kind = kMapKind;
   map.layerCount = kLayerCount;
   return map;
 }

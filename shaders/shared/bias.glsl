@@ -63,9 +63,16 @@ GNOMON_SHARED_END
 
 GNOMON_SHARED_BEGIN
 
+// As GNOMON_MAP_KIND in map.glsl.
+#ifdef GNOMON_BIAS_METHOD
+#define biasMethod(method) GNOMON_BIAS_METHOD
+#else
+#define biasMethod(method) method
+#endif
+
 // Where the receiver is looked up and compared: at itself, but for methods that move it first.
 GNOMON_FN Receiver biasReceiver(int method, ShadowMap map, BiasParams params, Receiver receiver) {
-  if (method == kBiasNormalOffset) return normalOffsetReceiver(map, params, receiver);
+  if (biasMethod(method) == kBiasNormalOffset) return normalOffsetReceiver(map, params, receiver);
   return receiver;
 }
 
@@ -74,7 +81,7 @@ GNOMON_FN bool biasLit(int method, ShadowMap map, BiasParams params, Receiver re
                        GNOMON_OUT(bool) known) {
   known = true;
   if (tap.z1 >= 1.0f) return true;
-  switch (method) {
+  switch (biasMethod(method)) {
     case kBiasNone:
       return noneLit(map, receiver, tap);
     case kBiasConstant:

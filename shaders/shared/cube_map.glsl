@@ -74,26 +74,26 @@ GNOMON_FN Ray cubeTexelRay(ShadowMap map, int layer, vec2 uv) {
   vec3 acrossL = cubeLightFromFace(layer, vec3(uv.x * 2.0f - 1.0f, uv.y * 2.0f - 1.0f, 1.0f));
   Ray ray;
   ray.dir = unitVector(acrossL);
-  ray.origin = map.kind == kMapCubeRadial ? ray.dir * map.zNear : acrossL * map.zNear;
+  ray.origin = mapKind(map) == kMapCubeRadial ? ray.dir * map.zNear : acrossL * map.zNear;
   return ray;
 }
 
 GNOMON_FN float cubeDepth(ShadowMap map, int layer, vec3 posL) {
-  if (map.kind == kMapCubeRadial) return (length(posL) - map.zNear) / (map.zFar - map.zNear);
+  if (mapKind(map) == kMapCubeRadial) return (length(posL) - map.zNear) / (map.zFar - map.zNear);
   float m = cubeFaceFromLight(layer, posL).z;
   return (map.clipDepth.x * m + map.clipDepth.y) / m;
 }
 
 // Hyperbolic: (x + y / m)' = -y m' / m^2, equation 10 of Dou et al. 2014 where the ray is the face's axis.
 GNOMON_FN float cubeDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) {
-  if (map.kind == kMapCubeRadial) return 1.0f / (map.zFar - map.zNear);
+  if (mapKind(map) == kMapCubeRadial) return 1.0f / (map.zFar - map.zNear);
   float m = cubeFaceFromLight(layer, posL).z;
   float rate = cubeFaceFromLight(layer, rayDir).z;
   return -map.clipDepth.y * rate / (m * m);
 }
 
 GNOMON_FN float cubeDistance(ShadowMap map, int layer, Ray ray, float depth) {
-  if (map.kind == kMapCubeRadial) return depth * (map.zFar - map.zNear);
+  if (mapKind(map) == kMapCubeRadial) return depth * (map.zFar - map.zNear);
   float m = map.clipDepth.y / (depth - map.clipDepth.x);
   return (m - cubeFaceFromLight(layer, ray.origin).z) / cubeFaceFromLight(layer, ray.dir).z;
 }

@@ -27,6 +27,14 @@ const int kMapParaboloid = 3;  // two hemispheres, depth linear in the distance 
 const int kMapEpipolar = 4;    // one layer of light rays (theta, phi), depth grows with alpha: the columns of a shadow volume
 const int kMaxMapLayers = 6;
 
+// A shader of one kind of map defines GNOMON_MAP_KIND, a constant: the branches below are then decided before any function is inlined, and
+// the other kinds' code is gone from its pipelines (src/gpu/specialize.h).
+#ifdef GNOMON_MAP_KIND
+#define mapKind(map) GNOMON_MAP_KIND
+#else
+#define mapKind(map) (map).kind
+#endif
+
 struct MapLayer {
   mat4 clipFromLight;  // Vulkan clip space: y down, z in [0, w]
   mat4 lightFromClip;
@@ -75,7 +83,7 @@ GNOMON_SHARED_BEGIN
 
 // Which layer and where on it a point falls, and whether the map covers it at all.
 GNOMON_FN MapPoint mapProject(ShadowMap map, vec3 posL) {
-  switch (map.kind) {
+  switch (mapKind(map)) {
     case kMapPlanar:
       return planarProject(map, posL);
     case kMapCube:
@@ -95,7 +103,7 @@ GNOMON_FN MapPoint mapProject(ShadowMap map, vec3 posL) {
 
 // The light ray through uv of a layer. Its origin is where depth is 0.
 GNOMON_FN Ray mapTexelRay(ShadowMap map, int layer, vec2 uv) {
-  switch (map.kind) {
+  switch (mapKind(map)) {
     case kMapPlanar:
       return planarTexelRay(map, layer, uv);
     case kMapCube:
@@ -114,7 +122,7 @@ GNOMON_FN Ray mapTexelRay(ShadowMap map, int layer, vec2 uv) {
 
 // The depth a layer stores for a point; outside [0,1] before the near end and beyond the far one.
 GNOMON_FN float mapDepth(ShadowMap map, int layer, vec3 posL) {
-  switch (map.kind) {
+  switch (mapKind(map)) {
     case kMapPlanar:
       return planarDepth(map, layer, posL);
     case kMapCube:
@@ -130,7 +138,7 @@ GNOMON_FN float mapDepth(ShadowMap map, int layer, vec3 posL) {
 
 // d depth / d metre at a point, along the unit direction of a texel's ray: f'(x) of Dou et al. 2014, equation 2.
 GNOMON_FN float mapDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) {
-  switch (map.kind) {
+  switch (mapKind(map)) {
     case kMapPlanar:
       return planarDepthSlope(map, layer, posL, rayDir);
     case kMapCube:
@@ -146,7 +154,7 @@ GNOMON_FN float mapDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) 
 
 // Metres from the ray's origin to where the map's depth is `depth`: the inverse of mapDepth along a texel's ray.
 GNOMON_FN float mapDistance(ShadowMap map, int layer, Ray ray, float depth) {
-  switch (map.kind) {
+  switch (mapKind(map)) {
     case kMapPlanar:
       return planarDistance(map, layer, ray, depth);
     case kMapCube:

@@ -1,5 +1,7 @@
 // Visibility by a shadow volume: G-buffer pixel -> receiver -> voxel -> its bit. Reads and writes what shadow/shade_visibility.comp.glsl
 // does; the texel of the diagnosis is the column.
+#define GNOMON_MAP_KIND kMapEpipolar
+
 #include "shared/shade.glsl"
 #include "shared/volume.glsl"
 #include "shared/volume_lookup.glsl"
@@ -30,7 +32,6 @@ float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosi
   if (!fetchReceiver(pixel, id, receiver)) return 0.0f;
   pixelDiagnosis.flags = kPixelShaded;
   ShadowMap map = shadowMap;
-  map.kind = kMapEpipolar;
   map.layerCount = 1;
   MapPoint point = mapProject(map, receiver.posL);
   if (!point.covered) return 1.0f;

@@ -18,27 +18,6 @@ void nameObject(const Device& device, VkObjectType type, Handle handle, const st
   device.nameObject(type, reinterpret_cast<uint64_t>(handle), name.c_str());
 }
 
-// Specialization constants in the form that Vulkan reads; must outlive the pipeline's creation.
-struct SpecializationData {
-  std::vector<VkSpecializationMapEntry> entries;
-  std::vector<int32_t> values;
-  VkSpecializationInfo info{};
-
-  explicit SpecializationData(const std::vector<Specialization>& specializations) {
-    for (const Specialization& constant : specializations) {
-      entries.push_back(
-          {constant.id, static_cast<uint32_t>(values.size() * sizeof(int32_t)), sizeof(int32_t)});
-      values.push_back(constant.value);
-    }
-    info.mapEntryCount = static_cast<uint32_t>(entries.size());
-    info.pMapEntries = entries.data();
-    info.dataSize = values.size() * sizeof(int32_t);
-    info.pData = values.data();
-  }
-  SpecializationData(const SpecializationData&) = delete;
-  SpecializationData& operator=(const SpecializationData&) = delete;
-};
-
 // Adds one stage's interface to the program's. The stages of a program must agree on what a binding is.
 void merge(ProgramInterface& into, const ProgramInterface& stage, const std::string& name) {
   for (const ProgramInterface::Binding& binding : stage.bindings) {
@@ -68,13 +47,14 @@ struct Stages {
   ProgramInterface interface;
 
   void add(const Device& device, const ShaderSource& source, VkShaderStageFlagBits stage,
-           const SpecializationData& specialization, const std::string& programName) {
-    const std::vector<uint32_t> spirv = compileShader(source);
+           const std::vector<Specialization>& specializations, const std::string& programName) {
+    const std::vector<uint32_t> compiled = compileShader(source);
     try {
-      merge(interface, reflect(spirv, stage), programName);
+      merge(interface, reflect(compiled, stage), programName);  // every variant of a shader binds alike
     } catch (const WorldError& error) {
       throw WorldError(fmt::format("{}: {}", source.path, error.what()));
     }
+    const std::vector<uint32_t> spirv = specialize(compiled, specializations);
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = spirv.size() * sizeof(uint32_t);
     info.pCode = spirv.data();
@@ -86,7 +66,6 @@ struct Stages {
     stageInfo.stage = stage;
     stageInfo.module = module;
     stageInfo.pName = "main";
-    stageInfo.pSpecializationInfo = &specialization.info;
     infos.push_back(stageInfo);
   }
 };
@@ -223,9 +202,8 @@ ComputeProgram::ComputeProgram(const Device& device, const ShaderSource& shader,
                                const std::vector<Specialization>& specializations) {
   name_ = shader.path;
   bindPoint_ = VK_PIPELINE_BIND_POINT_COMPUTE;
-  const SpecializationData specialization(specializations);
   Stages stages;
-  stages.add(device, shader, VK_SHADER_STAGE_COMPUTE_BIT, specialization, name_);
+  stages.add(device, shader, VK_SHADER_STAGE_COMPUTE_BIT, specializations, name_);
   interface_ = std::move(stages.interface);
   createLayouts(device);
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
@@ -241,11 +219,10 @@ GraphicsProgram::GraphicsProgram(const Device& device, const GraphicsDesc& desc)
   GNOMON_CHECK(desc.name != nullptr);
   name_ = desc.name;
   bindPoint_ = VK_PIPELINE_BIND_POINT_GRAPHICS;
-  const SpecializationData specialization(desc.specializations);
   Stages stages;
-  stages.add(device, desc.vertex, VK_SHADER_STAGE_VERTEX_BIT, specialization, name_);
+  stages.add(device, desc.vertex, VK_SHADER_STAGE_VERTEX_BIT, desc.specializations, name_);
   if (!desc.fragment.path.empty())
-    stages.add(device, desc.fragment, VK_SHADER_STAGE_FRAGMENT_BIT, specialization, name_);
+    stages.add(device, desc.fragment, VK_SHADER_STAGE_FRAGMENT_BIT, desc.specializations, name_);
   interface_ = std::move(stages.interface);
   createLayouts(device);
   adopt(device, createGraphicsPipeline(device, desc, stages.infos, layout()));

@@ -7,17 +7,12 @@
 
 #include "gpu/resources.h"
 #include "gpu/shader_compiler.h"
+#include "gpu/specialize.h"
 
 #include <string>
 #include <vector>
 
 namespace gnomon::gpu {
-
-// One specialization constant: `layout(constant_id = id) const int name`. Booleans are 0 and 1.
-struct Specialization {
-  uint32_t id = 0;
-  int32_t value = 0;
-};
 
 struct ProgramInterface {
   struct Binding {

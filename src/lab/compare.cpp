@@ -247,6 +247,7 @@ class MapComparison {
     MapSummary summary{.map = parameterization_.name(),
                        .light = source_.name,
                        .side = fitted.map.side,
+                       .rows = fitted.map.rows,
                        .layers = fitted.map.layerCount,
                        .zNear = fitted.zNear,
                        .zFar = fitted.zFar,

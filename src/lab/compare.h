@@ -117,7 +117,7 @@ struct TruthSummary {
 
 struct MapSummary {
   std::string map, light;
-  int side = 0, layers = 0;
+  int side = 0, rows = 0, layers = 0;  // texels along u and v
   float zNear = 0.0f, zFar = 0.0f;
   std::optional<SolidAngles> solidAngles;                        // of texels of maps that look around a point
   Pictures pictures;                                             // depth, second_depth, layer_gap, truth, ...
