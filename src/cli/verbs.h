@@ -22,5 +22,6 @@ Run addReportVerb(CLI::App& app);
 Run addVsvVerb(CLI::App& app);
 Run addSceneVerb(CLI::App& app);
 Run addInfoVerb(CLI::App& app);
+Run addBenchVerb(CLI::App& app);
 
 }  // namespace gnomon
