@@ -36,7 +36,9 @@ TEST_P(Samples, DrawsItsPicture) {
   EXPECT_LE(different, lavapipe ? size_t{0} : drawn.values.size() / 200);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Samples, ::testing::Values("01_point_light_cube", "02_point_light_paraboloid"),
+INSTANTIATE_TEST_SUITE_P(All, Samples,
+                         ::testing::Values("01_point_light_cube", "02_point_light_paraboloid",
+                                           "03_shadow_volume"),
                          [](const auto& sample) { return std::string(sample.param); });
 
 TEST(SampleMistakes, AMissingSceneIsOneLine) {

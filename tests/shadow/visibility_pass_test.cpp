@@ -2,6 +2,7 @@
 // method.
 #include "base/image.h"
 #include "map_fixture.h"
+#include "tests/golden_picture.h"
 #include "truth/labels.h"
 
 #include <algorithm>
@@ -52,21 +53,6 @@ class VisibilityPassTest : public gpu::GpuTest {
     result.visibility = gpu::downloadAs<float>(device(), pass.visibility());
     result.scored = r.receivers.scored;
     return result;
-  }
-
-  // Blessed by tools/bless, in a commit of its own. On lavapipe the pictures are equal to the bit; another
-  // device may differ in half a percent of the pixels, at decisions within its rounding.
-  void compareWithGolden(const std::string& name, const std::vector<float>& visibility, int side) {
-    Image8 picture(side, side, 1);
-    for (size_t i = 0; i < visibility.size(); ++i) picture.values[i] = visibility[i] > 0.5f ? 255 : 0;
-    const std::filesystem::path path = std::filesystem::path(GNOMON_TEST_DIR) / "golden" / (name + ".png");
-    if (std::getenv("GNOMON_BLESS") != nullptr) writePng(path, picture);
-    const ImageF golden = readImage(path);
-    ASSERT_EQ(golden.values.size(), picture.values.size());
-    size_t different = 0;
-    for (size_t i = 0; i < golden.values.size(); ++i)
-      different += (golden.values[i] > 0.5f) != (picture.values[i] > 127) ? 1 : 0;
-    EXPECT_LE(different, isLavapipe() ? size_t{0} : golden.values.size() / 200);
   }
 };
 
@@ -123,11 +109,13 @@ TEST_F(VisibilityPassTest, GoldenPictures) {
   const test::Rendered r =
       test::render(device(), "contact", spotParameterization(), 256, 128, CullMode::Solids);
   for (const BiasMethod& method : biasMethods())
-    compareWithGolden(std::string("contact_spot_") + method.name, score(r, method).visibility, 256);
+    test::compareWithGolden(std::string("contact_spot_") + method.name, score(r, method).visibility, 256,
+                            isLavapipe());
   const test::Rendered d =
       test::render(device(), "lshape", directionalParameterization(), 256, 64, CullMode::Solids);
   for (const BiasMethod& method : biasMethods())
-    compareWithGolden(std::string("lshape_directional_") + method.name, score(d, method).visibility, 256);
+    test::compareWithGolden(std::string("lshape_directional_") + method.name, score(d, method).visibility,
+                            256, isLavapipe());
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Volumes on the GPU: columns against exact rays, bits against a serial scan, and what the look-up says
 // against the truth.
 #include "base/error.h"
+#include "tests/golden_picture.h"
+
 #include "vsv_fixture.h"
 
 #include "shared/volume.glsl"
@@ -8,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+
+#include <fmt/format.h>
 
 namespace gnomon {
 namespace {
@@ -220,6 +224,16 @@ TEST_F(VolumeTest, ResampledColumnsBringSomeAcneBack) {
                 100.0 * static_cast<double>(adaptive) / static_cast<double>(w.receivers.scored));
     EXPECT_GT(adaptive, 0u);
     EXPECT_LT(adaptive, none);
+  }
+}
+
+TEST_F(VolumeTest, GoldenPictures) {
+  for (const VolumeSource source : {VolumeSource::Direct, VolumeSource::Resample}) {
+    const VolumeWorld w = test::buildVolume(
+        device(), {.scene = "contact", .size = {.alpha = 256, .theta = 256, .phi = 128}, .source = source});
+    for (const char* bias : {"none", "constant", "adaptive"})
+      test::compareWithGolden(fmt::format("contact_vsv_{}_{}", volumeSourceName(source), bias),
+                              test::scoreVolume(device(), w, bias).visibility, 256, isLavapipe());
   }
 }
 

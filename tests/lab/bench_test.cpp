@@ -1,0 +1,67 @@
+// The bench: ratios are of one round, and its curves and numbers are all there.
+#include "lab/bench.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace gnomon {
+namespace {
+
+// A machine that gets slower from round to round: ratios must not notice.
+TEST(Bench, ARatioIsOfTheSameRound) {
+  int round = 0;
+  const std::vector<TimedStage> stages = {
+      {"base", "", [&] { return 10.0 * ++round; }},
+      {"twice", "base", [&] { return 20.0 * round; }},
+      {"outlier", "base", [&] { return round == 3 ? 1e6 : 5.0 * round; }},
+  };
+  const std::vector<StageCost> costs = timeInRounds(stages, 5);  // rounds 2..6; the first is not timed
+  ASSERT_EQ(costs.size(), 3u);
+  EXPECT_DOUBLE_EQ(costs[0].medianMs, 40.0);
+  EXPECT_DOUBLE_EQ(costs[0].minMs, 20.0);
+  EXPECT_DOUBLE_EQ(costs[0].maxMs, 60.0);
+  EXPECT_DOUBLE_EQ(costs[0].ratio, 0.0);
+  EXPECT_DOUBLE_EQ(costs[1].ratio, 2.0);
+  EXPECT_DOUBLE_EQ(costs[2].ratio, 0.5);
+  EXPECT_DOUBLE_EQ(costs[2].maxMs, 1e6);
+}
+
+TEST(Bench, TheCurvesAreOneDrawingThatNamesEveryStageAndSize) {
+  const Growth growth{.size = "pixels",
+                      .unit = "pixels",
+                      .stages = {"a <b>", "c"},
+                      .points = {{1e4, "100", {1.0, 2.0}}, {1e6, "1000", {50.0, 2.5}}}};
+  const std::string svg = growthSvg({growth, growth});
+  EXPECT_EQ(svg.rfind("<svg ", 0), 0u);
+  for (const char* text : {"a &lt;b&gt;", ">c<", ">100<", ">1000<", "milliseconds against pixels"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(growthSvg({}), "");
+}
+
+TEST(Bench, EveryStageOfASceneIsTimedAgainstOneThatIsThere) {
+  const Session session({}, {.scene = "contact", .size = "32"});
+  BenchOptions options{.mapTexels = 6 * 32 * 32, .repeats = 1, .growth = false};
+  options.mapOptions.volumeSize = {.alpha = 64, .theta = 64, .phi = 128};
+  const Bench bench = runBench(session, {}, options);
+  EXPECT_GT(bench.stages.size(), 50u);
+  EXPECT_FALSE(bench.start.has_value());
+  const auto json = nlohmann::json::parse(benchJson(session, bench, "gnomon bench contact"));
+  std::set<std::string> names;
+  for (const auto& stage : json["stages"]) {
+    EXPECT_TRUE(names.insert(stage["name"]).second) << stage;
+    EXPECT_GT(stage["median_ms"].get<double>(), 0.0) << stage;
+    EXPECT_LE(stage["min_ms"].get<double>(), stage["median_ms"].get<double>());
+    EXPECT_GE(stage["max_ms"].get<double>(), stage["median_ms"].get<double>());
+    if (!stage.contains("ratio")) continue;
+    EXPECT_GT(stage["ratio"].get<double>(), 0.0) << stage;
+    EXPECT_TRUE(names.contains(stage["ratio_to"])) << stage << " is compared with what comes later";
+  }
+  for (const char* name : {"map/cube/two layers", "map/paraboloid, vertex/one layer",
+                           "visibility/cube/adaptive", "volume/bits, one pass", "truth/exact shadow"})
+    EXPECT_TRUE(names.contains(name)) << name;
+}
+
+}  // namespace
+}  // namespace gnomon
