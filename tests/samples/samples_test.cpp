@@ -5,6 +5,7 @@
 #include "tests/base/temporary_folder.h"
 
 #include <cstdlib>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -40,6 +41,37 @@ INSTANTIATE_TEST_SUITE_P(All, Samples,
                          ::testing::Values("01_point_light_cube", "02_point_light_paraboloid",
                                            "03_shadow_volume"),
                          [](const auto& sample) { return std::string(sample.param); });
+
+// Of docs/add_a_parameterization.md: it stands in the table beside the cube, covers every pixel, and its
+// adaptive bias works.
+TEST(Samples05, AMapOfOnesOwnIsScoredBesideTheCube) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path table = folder.path() / "stdout";
+  const std::string command =
+      std::string(GNOMON_SAMPLES_DIR) + "/05_map_of_my_own slope 98304 >" + table.string();
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  std::istringstream lines(readFile(table));
+  int rows = 0;  // ... agree acne leak edge_sh edge_li uncovered bias-error rmse build-ms shade-ms
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string map, side, bias, filter, word;
+    words >> map >> side >> bias >> filter;
+    if (map != "tetrahedron") continue;
+    ++rows;
+    std::vector<std::string> rest;
+    while (words >> word) rest.push_back(word);
+    ASSERT_GE(rest.size(), 10u);
+    const std::string uncovered = rest[rest.size() - 5], acne = rest[rest.size() - 9];
+    EXPECT_EQ(uncovered, "0") << line;
+    if (bias == "adaptive") {
+      EXPECT_EQ(acne, "0") << line;
+    }
+    if (bias == "none") {
+      EXPECT_GT(std::stol(acne), 1000) << line;
+    }
+  }
+  EXPECT_EQ(rows, 4);
+}
 
 TEST(SampleMistakes, AMissingSceneIsOneLine) {
   const test::TemporaryFolder folder;
