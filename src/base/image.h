@@ -47,6 +47,10 @@ Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what);
 // A JPEG file in memory, of 1 or 3 channels; `quality` 1..100. Throws WorldError.
 std::string encodeJpeg(const Image8& image, int quality);
 
+// Begins on another thread to load what the functions above need (base/image_codec.h): for whom pictures are
+// the last thing to come. Without it the first of them waits.
+void preloadImages();
+
 // RFC 4648, with padding: for data URIs.
 std::string base64(std::string_view bytes);
 

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/file.h"
+#include "base/image.h"
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
 #include "lab/report.h"
@@ -31,6 +32,7 @@ int runCompare(const CompareFlags& flags) {
   for (const std::string& text : flags.failIf) thresholds.push_back(parseThreshold(text));
   CompareOptions options = compareOptions(flags.method);
   options.outDir = flags.out;
+  if (!flags.out.empty()) preloadImages();
   options.repeats = flags.repeats;
   options.tune = flags.tune;
 

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "base/image.h"
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
 #include "lab/pictures.h"
@@ -102,6 +103,7 @@ int runRender(const RenderFlags& flags) {
     options.biases.erase(options.biases.begin(), options.biases.end() - 1);  // a file given is the bias meant
   if (options.maps.size() != 1 || options.biases.size() != 1 || options.filters.size() != 1)
     throw UsageError("render draws one configuration: give one --maps, one --biases and one --filters");
+  preloadImages();
   const Session session = openSession(flags.scene);
   const Picture picture = renderPicture(session, options, flags.show);
   if (extension == ".exr")

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/file.h"
+#include "base/image.h"
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
 #include "lab/volume_report.h"
@@ -47,6 +48,7 @@ VolumeOptions volumeOptions(const VsvFlags& flags) {
 
 int runVsv(const VsvFlags& flags) {
   const VolumeOptions options = volumeOptions(flags);
+  if (!flags.out.empty()) preloadImages();
   const Session session = openSession(flags.scene);
   const VolumeResult result = examineVolume(session, options);
   const std::string json = volumeJson(session, options, result);

@@ -1,0 +1,28 @@
+#pragma once
+// What image.h leaves to OpenImageIO, in a library of its own that is loaded when the first image is read or
+// written: Debian's OpenImageIO brings 250 others with it, and loading them takes as long as a small picture
+// takes to render (0.2 s). For image.cpp only.
+
+#include "base/image.h"
+
+namespace gnomon {
+
+// As the functions of these names in image.h.
+struct ImageCodec {
+  void (*writePng)(const std::filesystem::path& path, const Image8& image);
+  void (*writeExr)(const std::filesystem::path& path, const ImageF& image,
+                   const std::vector<std::string>& channelNames);
+  ImageF (*readImage)(const std::filesystem::path& path);
+  Image8 (*decodeImage)(const uint8_t* bytes, size_t size, const std::string& what);
+  std::string (*encodeJpeg)(const Image8& image, int quality);
+  std::string (*base64)(std::string_view bytes);
+};
+
+// The library's one symbol; `extern "C"`, so that its name is what is written here.
+inline constexpr const char* kImageCodecLibrary = "libgnomon_images.so";
+inline constexpr const char* kImageCodecSymbol = "gnomonImageCodec";
+
+// Loaded once. Throws WorldError where the library is not to be found.
+const ImageCodec& imageCodec();
+
+}  // namespace gnomon
