@@ -1,6 +1,7 @@
 #include "shadow/map_image.h"
 
 #include "base/error.h"
+#include "shadow/layer_culling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,26 +28,6 @@ bool holdsLight(const Draw& draw, const LightModel& light) {
   const glm::vec3 position(light.positionW);
   return glm::all(glm::greaterThanEqual(position, draw.boundsW.lower)) &&
          glm::all(glm::lessThanEqual(position, draw.boundsW.upper));
-}
-
-// Whether any of the box may fall on a layer: it does not where all its corners lie outside one side of the
-// clip volume. A corner is projected to within a few ulps; a thousandth is more, and what it lets through is
-// clipped anyway.
-bool mayFallOn(const FittedMap& fitted, int layer, const Bounds& boundsW) {
-  bool outside[4] = {true, true, true, true};
-  for (int i = 0; i < 8; ++i) {
-    const glm::vec3 cornerW(i & 1 ? boundsW.upper.x : boundsW.lower.x,
-                            i & 2 ? boundsW.upper.y : boundsW.lower.y,
-                            i & 4 ? boundsW.upper.z : boundsW.lower.z);
-    const glm::vec4 clip = glsl::transform(fitted.map.mapLayers[layer].clipFromLight,
-                                           glm::vec4(glsl::lightFromWorld(fitted.frame, cornerW), 1.0f));
-    const float slack = 1e-3f * (std::abs(clip.x) + std::abs(clip.y) + std::abs(clip.w));
-    outside[0] = outside[0] && clip.x > clip.w + slack;
-    outside[1] = outside[1] && -clip.x > clip.w + slack;
-    outside[2] = outside[2] && clip.y > clip.w + slack;
-    outside[3] = outside[3] && -clip.y > clip.w + slack;
-  }
-  return !outside[0] && !outside[1] && !outside[2] && !outside[3];
 }
 
 // What a program reads of the scene and the map.
@@ -155,18 +136,19 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
   const bool backFaces = layer.map.content() == MapContent::BackFaces;
   const bool mirrors = (shaders.mirroredLayers >> layer.index & 1u) != 0;
   const LayerPush push{.layer = layer.index};
-  const auto mayBeSeen = [&](const Draw& d) {
-    for (int i = layer.index; i < layer.index + layer.count; ++i)
-      if (mayFallOn(layer.map.fitted_, i, d.boundsW)) return true;
-    return false;
-  };
+  const LayerCulling culling(layer.map.fitted_, layer.index, layer.count);
+  std::vector<std::vector<LayerCulling::Range>> shown;  // of each draw
+  for (const Draw& d : scene.draws) shown.push_back(culling.rangesOf(scene, d));
   commands.beginRendering(layer.targets);
   for (const bool masked : {false, true}) {
     for (const Group group : {Group::Sheets, Group::Solids, Group::MirroredSolids}) {
-      const auto wanted = [&](const Draw& d) {
-        return d.masked == masked && groupOf(d) == group && (!shaders.projective || mayBeSeen(d));
+      const auto wanted = [&](size_t i) {
+        const Draw& d = scene.draws[i];
+        return d.masked == masked && groupOf(d) == group && !shown[i].empty();
       };
-      if (std::ranges::none_of(scene.draws, wanted)) continue;
+      size_t next = 0;
+      while (next < shown.size() && !wanted(next)) ++next;
+      if (next == shown.size()) continue;
       const gpu::GraphicsProgram& drawn =
           program({shaders, layer.pass, masked, layer.map.kind(), layer.targets.viewMask});
       commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
@@ -177,7 +159,10 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
                                                  : VK_CULL_MODE_BACK_BIT,
                           clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
       commands.bindIndexBuffer(scene.triangles);
-      recordDraws(commands, scene, wanted);
+      for (; next < shown.size(); ++next)
+        if (wanted(next))
+          for (const LayerCulling::Range& range : shown[next])
+            commands.drawIndexed(range.indexCount, 1, range.firstIndex, 0, scene.draws[next].instance);
     }
   }
   commands.endRendering();
