@@ -46,8 +46,10 @@ class CubeParameterization final : public Parameterization {
     const DepthEnds ends =
         fitDepthEnds(input.scene, input.light.positionW,
                      depth == CubeDepth::Radial ? Distance::Radial : Distance::Axial, input.receiversW);
-    return makeCubeMap(input.light.positionW, depth, ends.zNear, ends.zFar, input.side,
-                       computeBounds(input.scene).diagonal());
+    FittedMap fitted = makeCubeMap(input.light.positionW, depth, ends.zNear, ends.zFar, input.side,
+                                   computeBounds(input.scene).diagonal());
+    fitted.shaders.passes = input.options.cubePasses;
+    return fitted;
   }
 };
 

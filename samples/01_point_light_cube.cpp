@@ -1,11 +1,12 @@
-// A point light with a cube map: scene, camera, map, visibility, picture.
+// A point light with a cube map: the scene's first light, six faces around it, the adaptive bias of Dou et
+// al.
 //
 //   01_point_light_cube [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
 #include "base/image.h"
 #include "omni/cube_map.h"
 #include "scene/generate.h"
-#include "shadow/visibility_pass.h"
+#include "shadow/lit_scene.h"
 
 #include <cstdio>
 #include <exception>
@@ -20,38 +21,19 @@ constexpr int kMapSide = 512;  // texels of a face
 void run(const char* sceneName, const char* path) {
   const Scene scene = openScene(sceneName);
   const auto device = gpu::Device::create({});
-  const SceneBuffers buffers = createSceneBuffers(*device, scene);
-  const glsl::CameraView camera = cameraView(scene.cameras.at(0), kSide, kSide);
-  const LightModel light{.type = LightType::Point, .positionW = glm::dvec3(scene.lights.at(0).positionW)};
+  LitScene lit(*device, scene, kSide, kSide);
 
-  // Without receivers the map encloses the whole scene.
-  const FittedMap fitted = cubeParameterization().fit(
-      {.scene = scene, .light = light, .receiversW = {}, .side = kMapSide, .camera = camera});
+  // A bias says what it reads of a map: this one a single layer of depth.
   const BiasMethod& bias = findBias("adaptive");
-  MapImage map(*device, fitted, bias.content);
-
-  const GBuffer gbuffer(*device, kSide, kSide);
-  const MapRenderer maps(*device);
-  VisibilityPass visibility(*device, kSide, kSide);
-  const RadiancePass radiance(*device, kSide, kSide);
-  glsl::ShadeUniforms shade = shadeUniforms(camera, light, defaultBiasParams(fitted.map.sceneScale));
-  const float distance = glm::distance(camera.eyeW, glm::vec3(light.positionW));
-  shade.lightColor = scene.lights.at(0).color * (0.5f * distance * distance);
-  shade.ambient = glm::vec3(0.05f);
-  visibility.setUniforms(shade);
+  MapImage map(*device, cubeParameterization().fit(lit.fitInput(kMapSide)), bias.content);
+  const MapRenderer renderer(*device);
 
   gpu::Commands commands(*device, "frame");
-  gbuffer.record(commands, buffers, camera);
-  maps.record(commands, buffers, map, light, CullMode::Solids);
-  commands.barrier("G-buffer and shadow map are written -> the visibility pass fetches them");
-  visibility.record(commands, buffers, gbuffer, map, bias, false, glsl::kFilterBilinear);
-  commands.barrier("visibility is written -> the radiance pass reads it");
-  radiance.record(commands, buffers, gbuffer, visibility.uniforms(), visibility.visibility());
+  renderer.record(commands, lit.buffers(), map, lit.light(), CullMode::Solids);
+  lit.record(commands, map, bias, glsl::kFilterBilinear);
   commands.submitAndWait();
 
-  ImageF picture(kSide, kSide, 3);
-  picture.values = gpu::downloadAs<float>(*device, radiance.radiance());
-  writePng(path, toSrgb8(picture));
+  writePng(path, toSrgb8(lit.picture()));
   std::printf("wrote %s\n", path);
 }
 

@@ -1,12 +1,12 @@
 // A point light with a dual-paraboloid map of the same number of texels as the cube of 01: two layers instead
-// of six. Both depth layers are drawn, and the bias of Weiskopf & Ertl takes half of what lies between them.
+// of six. The bias of Weiskopf & Ertl takes half of what lies between the two nearest depths.
 //
 //   02_point_light_paraboloid [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
 #include "base/image.h"
 #include "omni/paraboloid_map.h"
 #include "scene/generate.h"
-#include "shadow/visibility_pass.h"
+#include "shadow/lit_scene.h"
 
 #include <cstdio>
 #include <exception>
@@ -21,38 +21,19 @@ constexpr int kMapSide = 887;  // texels of a hemisphere: 2 * 887^2 = 6 * 512^2
 void run(const char* sceneName, const char* path) {
   const Scene scene = openScene(sceneName);
   const auto device = gpu::Device::create({});
-  const SceneBuffers buffers = createSceneBuffers(*device, scene);
-  const glsl::CameraView camera = cameraView(scene.cameras.at(0), kSide, kSide);
-  const LightModel light{.type = LightType::Point, .positionW = glm::dvec3(scene.lights.at(0).positionW)};
+  LitScene lit(*device, scene, kSide, kSide);
 
-  // Without receivers the map encloses the whole scene.
-  const FittedMap fitted = paraboloidParameterization().fit(
-      {.scene = scene, .light = light, .receiversW = {}, .side = kMapSide, .camera = camera});
+  // bias.content: the map holds both layers of depth.
   const BiasMethod& bias = findBias("dual");
-  MapImage map(*device, fitted, bias.content);
-
-  const GBuffer gbuffer(*device, kSide, kSide);
-  const MapRenderer maps(*device);
-  VisibilityPass visibility(*device, kSide, kSide);
-  const RadiancePass radiance(*device, kSide, kSide);
-  glsl::ShadeUniforms shade = shadeUniforms(camera, light, defaultBiasParams(fitted.map.sceneScale));
-  const float distance = glm::distance(camera.eyeW, glm::vec3(light.positionW));
-  shade.lightColor = scene.lights.at(0).color * (0.5f * distance * distance);
-  shade.ambient = glm::vec3(0.05f);
-  visibility.setUniforms(shade);
+  MapImage map(*device, paraboloidParameterization().fit(lit.fitInput(kMapSide)), bias.content);
+  const MapRenderer renderer(*device);
 
   gpu::Commands commands(*device, "frame");
-  gbuffer.record(commands, buffers, camera);
-  maps.record(commands, buffers, map, light, CullMode::Solids);
-  commands.barrier("G-buffer and shadow map are written -> the visibility pass fetches them");
-  visibility.record(commands, buffers, gbuffer, map, bias, false, glsl::kFilterBilinear);
-  commands.barrier("visibility is written -> the radiance pass reads it");
-  radiance.record(commands, buffers, gbuffer, visibility.uniforms(), visibility.visibility());
+  renderer.record(commands, lit.buffers(), map, lit.light(), CullMode::Solids);
+  lit.record(commands, map, bias, glsl::kFilterBilinear);
   commands.submitAndWait();
 
-  ImageF picture(kSide, kSide, 3);
-  picture.values = gpu::downloadAs<float>(*device, radiance.radiance());
-  writePng(path, toSrgb8(picture));
+  writePng(path, toSrgb8(lit.picture()));
   std::printf("wrote %s\n", path);
 }
 

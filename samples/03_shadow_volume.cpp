@@ -5,7 +5,8 @@
 
 #include "base/image.h"
 #include "scene/generate.h"
-#include "vsv/volume_parameterization.h"
+#include "shadow/lit_scene.h"
+#include "vsv/shadow_volume.h"
 #include "vsv/volume_renderer.h"
 #include "vsv/volume_visibility.h"
 
@@ -22,39 +23,22 @@ constexpr VolumeSize kSize{.alpha = 512, .theta = 512, .phi = 256};  // voxels
 void run(const char* sceneName, const char* path) {
   const Scene scene = openScene(sceneName);
   const auto device = gpu::Device::create({});
-  const SceneBuffers buffers = createSceneBuffers(*device, scene);
-  const glsl::CameraView camera = cameraView(scene.cameras.at(0), kSide, kSide);
-  const LightModel light{.type = LightType::Point, .positionW = glm::dvec3(scene.lights.at(0).positionW)};
+  LitScene lit(*device, scene, kSide, kSide);
 
   // The grid of columns, each a light ray, and the map of their nearest occluders; the bits come of those.
-  const FittedVolume fitted = fitVolume({.scene = scene, .light = light, .receiversW = {}, .camera = camera},
-                                        kSize, VolumeFit::Frustum);
-  ShadowVolume volume(*device, fitted);
-
-  const GBuffer gbuffer(*device, kSide, kSide);
+  ShadowVolume volume(*device, fitVolume(lit.fitInput(kSide), kSize, VolumeFit::Frustum));
   const MapRenderer maps(*device);
   const VolumeRenderer volumes(*device);
-  VisibilityPass visibility(*device, kSide, kSide);
   VolumeVisibility lookUp(*device);
-  const RadiancePass radiance(*device, kSide, kSide);
-  glsl::ShadeUniforms shade = shadeUniforms(camera, light, defaultBiasParams(fitted.columns.map.sceneScale));
-  const float distance = glm::distance(camera.eyeW, glm::vec3(light.positionW));
-  shade.lightColor = scene.lights.at(0).color * (0.5f * distance * distance);
-  shade.ambient = glm::vec3(0.05f);
-  visibility.setUniforms(shade);
 
   gpu::Commands commands(*device, "frame");
-  gbuffer.record(commands, buffers, camera);
-  volumes.record(commands, maps, buffers, volume, light, CullMode::Solids);
-  commands.barrier("G-buffer and shadow volume are written -> the visibility pass fetches them");
-  lookUp.record(commands, buffers, gbuffer, volume, visibility, findBias("adaptive"), false);
-  commands.barrier("visibility is written -> the radiance pass reads it");
-  radiance.record(commands, buffers, gbuffer, visibility.uniforms(), visibility.visibility());
+  volumes.record(commands, maps, lit.buffers(), volume, lit.light(), CullMode::Solids);
+  lit.record(commands, [&](VisibilityPass& into, const GBuffer& seen) {
+    lookUp.record(commands, lit.buffers(), seen, volume, into, findBias("adaptive"), false);
+  });
   commands.submitAndWait();
 
-  ImageF picture(kSide, kSide, 3);
-  picture.values = gpu::downloadAs<float>(*device, radiance.radiance());
-  writePng(path, toSrgb8(picture));
+  writePng(path, toSrgb8(lit.picture()));
   std::printf("wrote %s\n", path);
 }
 

@@ -27,9 +27,8 @@ vec4 onLayer(vec3 posL) {
   float radius = length(p);
   // Near the opposite pole only where there was no room to cut; the rim cuts what comes near it.
   vec2 at = vec2(p.x, p.y) * (1.0f / max(radius + p.z, 1e-3f * radius));
-  // As piecesRimW has it: between corners the square of the distance is interpolated, by which an edge of the longest chord,
-  // sqrt(8 / side), is cut up to 1 / side too early.
-  float rim = 1.0f + 2.5f / float(shadowMap.side);
+  // A value of the corner alone, so that pieces that share an edge are cut at the same place of it.
+  float rim = drawnRim(shadowMap.side);
   return vec4(at.x, -at.y, paraboloidDepth(shadowMap, posL), rim * rim - dot(at, at));
 }
 

@@ -4,14 +4,10 @@
 #include "shared/shade.glsl"
 
 #include "scene/alpha_mask.glsl"
+#include "shadow/drawn_layer.glsl"
 
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
 layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
-
-layout(push_constant, scalar) uniform Push {
-  int layer;
-  float tolerance;  // of depth
-};
 
 layout(constant_id = 0) const int kMasked = 0;
 layout(constant_id = 1) const int kPass = 0;
@@ -28,10 +24,10 @@ void main() {
   vec2 mapUv = mapTexelCenter(map, ivec2(gl_FragCoord.xy));
   float m = 1.0f / gl_FragCoord.w;
   // In the face's coordinates: a distance is the same in all of them.
-  float depth = cubeDepth(map, layer, vec3(mapUv.x * 2.0f - 1.0f, mapUv.y * 2.0f - 1.0f, 1.0f) * m);
+  float depth = cubeDepth(map, drawnLayer(), vec3(mapUv.x * 2.0f - 1.0f, mapUv.y * 2.0f - 1.0f, 1.0f) * m);
   // As a near plane would: what is nearer than the near end is not in the map.
   if (depth < 0.0f) discard;
-  if (kPass == 2 && depth <= texelFetch(mapDepthLayers, ivec3(ivec2(gl_FragCoord.xy), layer), 0).x + tolerance) discard;
+  if (kPass == 2 && depth <= texelFetch(mapDepthLayers, ivec3(ivec2(gl_FragCoord.xy), drawnLayer()), 0).x + tolerance) discard;
   gl_FragDepth = depth;
   secondDepth = depth;
 }

@@ -3,14 +3,10 @@
 #include "shared/shade.glsl"
 
 #include "scene/alpha_mask.glsl"
+#include "shadow/drawn_layer.glsl"
 
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
 layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
-
-layout(push_constant, scalar) uniform Push {
-  int layer;
-  float tolerance;  // of depth
-};
 
 layout(constant_id = 0) const int kMasked = 0;
 
@@ -21,7 +17,7 @@ layout(location = 0) out float depth;
 
 void main() {
   if (kMasked == 1 && isHole(materials[instances[instanceIndex].material], uv)) discard;
-  float first = texelFetch(mapDepthLayers, ivec3(ivec2(gl_FragCoord.xy), layer), 0).x;
+  float first = texelFetch(mapDepthLayers, ivec3(ivec2(gl_FragCoord.xy), drawnLayer()), 0).x;
   if (gl_FragCoord.z <= first + tolerance) discard;
   depth = gl_FragCoord.z;
 }

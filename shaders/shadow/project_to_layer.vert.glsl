@@ -1,11 +1,11 @@
 // A vertex to the clip space of one layer of a planar map, by the very steps with which the receiver is projected.
 #include "shared/shade.glsl"
 
+#include "shadow/drawn_layer.glsl"
+
 layout(scalar, binding = kBindPositions) readonly buffer Positions { vec3 positions[]; };
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
 layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
-
-layout(push_constant, scalar) uniform Push { int layer; };
 
 layout(location = 0) out vec2 uv;
 layout(location = 1) out flat uint instanceIndex;
@@ -14,5 +14,5 @@ void main() {
   instanceIndex = gl_InstanceIndex;
   uv = uvs[gl_VertexIndex];
   vec3 posW = vec3(transform(instances[gl_InstanceIndex].worldFromMesh, vec4(positions[gl_VertexIndex], 1.0f)));
-  gl_Position = transform(mapLayers[layer].clipFromLight, vec4(lightFromWorld(lightFrame, posW), 1.0f));
+  gl_Position = transform(mapLayers[drawnLayer()].clipFromLight, vec4(lightFromWorld(lightFrame, posW), 1.0f));
 }

@@ -32,10 +32,19 @@ GNOMON_FN vec2 arcMiddleUv(vec3 p, vec3 q, vec2 uvP, vec2 uvQ) {
   return (uvP * lq + uvQ * lp) * (1.0f / (lp + lq));
 }
 
-// Along the layer's axis over distance, where what is drawn ends: centres of held texels lie up to 1.42 / side beyond the rim, and a
-// straight edge may stand off by 1 / side.
-GNOMON_FN float piecesRimW(int side) {
-  float rim = 1.0f + 2.5f / float(side);
+// Where what is drawn with straight edges ends. Centres of held texels lie up to 1.42 / side beyond the rim. Edges whose bend is
+// measured have chords of at most c^2 = 9.7 / side: bent at most 1 / side they span 8 / side on a circle of radius 1, and where they run
+// straight their depth bounds them, which with t = tan of the angle from the light's nearest point of the line bends by
+// (1 + 2 t^2) / (1 + t) > 0.83 of what a shift makes up for.
+//  - An edge with both ends out here is not measured, and is as long as two that are: drawn straight it runs up to (2 c)^2 / 8 =
+//    4.9 / side nearer to the centre than its ends.
+//  - The rasterizer cuts where the square of the distance to the centre, interpolated, exceeds the rim's; within a triangle it is up to
+//    c^2 / 3 too much, which is 1.6 / side of distance.
+GNOMON_FN float drawnRim(int side) { return 1.0f + 6.5f / float(side); }
+
+// Along the layer's axis over distance, where what is drawn ends; bounds need no more than the texels and half of one.
+GNOMON_FN float piecesRimW(int side, bool drawnStraight) {
+  float rim = drawnStraight ? drawnRim(side) : 1.0f + 2.5f / float(side);
   return (1.0f - rim * rim) / (1.0f + rim * rim);
 }
 
@@ -78,7 +87,7 @@ GNOMON_FN Bends pieceBends(int side, int layer, Piece piece, bool drawnStraight)
   vec3 a = layerFromLight(layer, piece.a);
   vec3 b = layerFromLight(layer, piece.b);
   vec3 c = layerFromLight(layer, piece.c);
-  float rimW = piecesRimW(side);
+  float rimW = piecesRimW(side, drawnStraight);
   Bends bends;
   bends.a = edgeBend(b, c, rimW);
   bends.b = edgeBend(c, a, rimW);
@@ -126,7 +135,7 @@ GNOMON_FN bool isDrawnStraight(int side, int layer, Piece piece) {
 
 // Whether none of a piece is drawn.
 GNOMON_FN bool isBeyondRim(int side, int layer, Piece piece) {
-  float rimW = piecesRimW(side);
+  float rimW = piecesRimW(side, true);
   float axis = paraboloidAxisZ(layer);
   return piece.a.z * axis < rimW * length(piece.a) && piece.b.z * axis < rimW * length(piece.b) &&
          piece.c.z * axis < rimW * length(piece.c);

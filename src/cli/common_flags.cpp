@@ -216,6 +216,11 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
                   "hyperbolic: the rasterizer's depth of each face; radial: linear in the distance")
       ->capture_default_str();
   verb.add_option(
+          "--cube-passes", flags.cubePasses,
+          "six: a cube's faces are drawn one by one; multiview: in one pass; auto: whichever is faster "
+          "on the device, of what it draws right")
+      ->capture_default_str();
+  verb.add_option(
           "--paraboloid-axis", flags.paraboloidAxis,
           "x,y,z: where the first hemisphere looks; auto: the seam is turned away from what the camera sees")
       ->capture_default_str();
@@ -241,6 +246,7 @@ CompareOptions compareOptions(const MethodFlags& flags) {
   options.cull = parseCullMode(flags.cull);
   options.epsilonAt = parseEpsilonAt(flags.epsilonAt);
   options.mapOptions.cubeDepth = parseCubeDepth(flags.cubeDepth);
+  options.mapOptions.cubePasses = parseCubePasses(flags.cubePasses);
   options.mapOptions.paraboloidRaster = parseParaboloidRaster(flags.paraboloidRaster);
   if (flags.paraboloidAxis != "auto") {
     const glm::vec3 axis = parseVec3("--paraboloid-axis", flags.paraboloidAxis);

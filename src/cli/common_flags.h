@@ -33,6 +33,7 @@ struct MethodFlags {
   std::string cull = "solids";
   std::string epsilonAt = "occluder";
   std::string cubeDepth = "hyperbolic";
+  std::string cubePasses = "auto";
   std::string paraboloidAxis = "auto";
   std::string paraboloidRaster = "exact";
   std::string fit = "focused";

@@ -169,7 +169,7 @@ class MapComparison {
       row.mapSide = map.fitted.map.side;
       row.mapRows = map.fitted.map.rows;
       row.mapSize = mapSizeText(map.fitted);
-      if (map.volume) row.mapParams = volumeParams();
+      row.mapParams = map.volume ? volumeParams() : omniParams();
       row.layers = map.fitted.map.layerCount;
       row.cull = cullModeName(options_.cull);
       row.mapOptions = options_.mapOptions;
@@ -200,6 +200,28 @@ class MapComparison {
                               row.mapSide, row.mapRows);
     names.writesLabels = row.filter == options_.filters.front()->name;
     return names;
+  }
+
+  // What was not left at its default.
+  std::vector<std::pair<std::string, std::string>> omniParams() const {
+    const MapOptions& map = options_.mapOptions;
+    const MapOptions defaults;
+    std::vector<std::pair<std::string, std::string>> params;
+    const int kind = maps_->fitted().map.kind;
+    if (kind == glsl::kMapCube || kind == glsl::kMapCubeRadial) {
+      if (map.cubeDepth != defaults.cubeDepth)
+        params.emplace_back("cube_depth", cubeDepthName(map.cubeDepth));
+      if (map.cubePasses != defaults.cubePasses)
+        params.emplace_back("cube_passes", cubePassesName(map.cubePasses));
+    }
+    if (kind == glsl::kMapParaboloid) {
+      if (map.paraboloidRaster != defaults.paraboloidRaster)
+        params.emplace_back("paraboloid_raster", paraboloidRasterName(map.paraboloidRaster));
+      if (map.paraboloidAxisW)
+        params.emplace_back("paraboloid_axis", fmt::format("{:.6g},{:.6g},{:.6g}", map.paraboloidAxisW->x,
+                                                           map.paraboloidAxisW->y, map.paraboloidAxisW->z));
+    }
+    return params;
   }
 
   std::vector<std::pair<std::string, std::string>> volumeParams() const {

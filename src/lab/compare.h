@@ -79,7 +79,7 @@ struct Row {
   int mapSide = 0, mapRows = 0;  // texels along u and v of a layer
   int layers = 0;
   std::string mapSize;                                         // mapSizeText
-  std::vector<std::pair<std::string, std::string>> mapParams;  // of a volume: size, source, fit
+  std::vector<std::pair<std::string, std::string>> mapParams;  // of its own, beside mapOptions
   std::string bias;
   std::vector<std::pair<std::string, double>> knobs;  // name -> value in its unit
   std::vector<std::string> knobUnits;

@@ -25,6 +25,28 @@ Bounds instanceBounds(const Mesh& mesh, const glm::mat4& worldFromMesh) {
   return bounds;
 }
 
+// Of the parts of a large mesh, in its own space; none of a small one.
+std::vector<Bounds> partBounds(const Mesh& mesh) {
+  std::vector<Bounds> parts;
+  if (mesh.indices.size() < kLeastPartedIndices) return parts;
+  for (size_t i = 0; i < mesh.indices.size(); ++i) {
+    if (i % kPartIndices == 0) parts.push_back({.lower = glm::vec3(INFINITY), .upper = glm::vec3(-INFINITY)});
+    const glm::vec3& position = mesh.positions[mesh.indices[i]];
+    parts.back().lower = glm::min(parts.back().lower, position);
+    parts.back().upper = glm::max(parts.back().upper, position);
+  }
+  return parts;
+}
+
+// A box around the box.
+Bounds transformed(const glm::mat4& worldFromMesh, const Bounds& bounds) {
+  const glm::vec3 center(worldFromMesh * glm::vec4(0.5f * (bounds.lower + bounds.upper), 1.0f));
+  const glm::vec3 half = 0.5f * (bounds.upper - bounds.lower);
+  glm::vec3 reach(0.0f);
+  for (int axis = 0; axis < 3; ++axis) reach += glm::abs(glm::vec3(worldFromMesh[axis])) * half[axis];
+  return {.lower = center - reach, .upper = center + reach};
+}
+
 template <typename T>
 void append(std::vector<T>& all, const std::vector<T>& some) {
   all.insert(all.end(), some.begin(), some.end());
@@ -36,12 +58,14 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec2> uvs;
   std::vector<uint32_t> indices;
-  std::vector<uint32_t> firstIndices;  // one a mesh
+  std::vector<uint32_t> firstIndices;      // one a mesh
+  std::vector<std::vector<Bounds>> parts;  // of each mesh
   for (const Mesh& mesh : scene.meshes) {
     firstIndices.push_back(static_cast<uint32_t>(indices.size()));
     const auto firstVertex = static_cast<uint32_t>(positions.size());
     for (const uint32_t index : mesh.indices) indices.push_back(firstVertex + index);
     append(positions, mesh.positions);
+    parts.push_back(partBounds(mesh));
     append(normals, mesh.normals);
     append(uvs, mesh.uvs);
   }
@@ -60,7 +84,11 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
                              .doubleSided = material.doubleSided,
                              .solid = isSolid(scene, mesh),
                              .mirrored = mirrored,
-                             .boundsW = instanceBounds(mesh, instance.worldFromMesh)});
+                             .boundsW = instanceBounds(mesh, instance.worldFromMesh),
+                             .firstPart = static_cast<uint32_t>(buffers.partBoundsW.size()),
+                             .partCount = static_cast<uint32_t>(parts[instance.mesh].size())});
+    for (const Bounds& part : parts[instance.mesh])
+      buffers.partBoundsW.push_back(transformed(instance.worldFromMesh, part));
     instances.push_back({.worldFromMesh = instance.worldFromMesh,
                          .firstTriangle = firstIndex / 3,
                          .material = static_cast<uint32_t>(mesh.material)});

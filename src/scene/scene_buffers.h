@@ -20,11 +20,22 @@ struct Draw {
   bool solid = false;        // closed and not doubleSided: its back faces may be culled from a map
   bool mirrored = false;     // the instance's matrix turns the winding round
   Bounds boundsW;            // metres
+  uint32_t firstPart = 0;    // in SceneBuffers::partBoundsW
+  uint32_t partCount = 0;    // 0: not cut in parts
 };
+
+// A large draw is cut in parts of as many indices, the last one less, so that a map's layer need not draw
+// what it cannot see. A level that is one mesh of 21,236 triangles goes to a cube's six faces as 6.0 times
+// that, in parts of 64 triangles as 2.2 times, triangle by triangle as 1.06 times; the map costs 5% less in
+// parts, and 9% less triangle by triangle before the cost of writing six lists for every map.
+inline constexpr uint32_t kPartIndices = 3 * 64;
+// Fewer are drawn whole.
+inline constexpr uint32_t kLeastPartedIndices = 8 * kPartIndices;
 
 struct SceneBuffers {
   gpu::Buffer positions, triangles, instances, uvs, materials, textures, texels, normals;
   std::vector<Draw> draws;               // opaque first
+  std::vector<Bounds> partBoundsW;       // metres
   std::vector<uint32_t> firstTriangles;  // one an instance, in the array of triangles
   bool instanced = false;                // some matrix is not the identity
 };

@@ -6,11 +6,18 @@
 // the front of LayerPush as it needs. Fragment shaders take `layout(constant_id = 0) const int kMasked`: 1
 // leaves the holes of alpha masks open; constant_id 1 is the pass: 0 the first layer, 1 the second by
 // blending, 2 by peeling;
-// constant_id 2 is the map's kind (kMap*).
+// constant_id 2 is the map's kind (kMap*), 3 is 1 where one pass draws all layers (shadow/drawn_layer.glsl).
 
 #include <cstdint>
 
 namespace gnomon {
+
+// How often the triangles of a projective map are sent on their way.
+enum class LayerPasses {
+  Auto,       // whichever is faster on the device, of what is right on it
+  Each,       // once a layer
+  Multiview,  // once for all layers, where the device draws them as it does one by one
+};
 
 struct LayerShaders {
   const char* vertex = "shadow/project_to_layer.vert.glsl";
@@ -31,6 +38,7 @@ struct LayerShaders {
   uint32_t mirroredLayers = 0;
   // The layers are clipFromLight's: what its sides do not let through need not be drawn.
   bool projective = true;
+  LayerPasses passes = LayerPasses::Each;  // of projective layers that mirror all, or none
 
   bool operator==(const LayerShaders&) const = default;
 };

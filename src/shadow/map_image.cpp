@@ -1,6 +1,7 @@
 #include "shadow/map_image.h"
 
 #include "base/error.h"
+#include "shadow/layer_culling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,26 +28,6 @@ bool holdsLight(const Draw& draw, const LightModel& light) {
   const glm::vec3 position(light.positionW);
   return glm::all(glm::greaterThanEqual(position, draw.boundsW.lower)) &&
          glm::all(glm::lessThanEqual(position, draw.boundsW.upper));
-}
-
-// Whether any of the box may fall on a layer: it does not where all its corners lie outside one side of the
-// clip volume. A corner is projected to within a few ulps; a thousandth is more, and what it lets through is
-// clipped anyway.
-bool mayFallOn(const FittedMap& fitted, int layer, const Bounds& boundsW) {
-  bool outside[4] = {true, true, true, true};
-  for (int i = 0; i < 8; ++i) {
-    const glm::vec3 cornerW(i & 1 ? boundsW.upper.x : boundsW.lower.x,
-                            i & 2 ? boundsW.upper.y : boundsW.lower.y,
-                            i & 4 ? boundsW.upper.z : boundsW.lower.z);
-    const glm::vec4 clip = glsl::transform(fitted.map.mapLayers[layer].clipFromLight,
-                                           glm::vec4(glsl::lightFromWorld(fitted.frame, cornerW), 1.0f));
-    const float slack = 1e-3f * (std::abs(clip.x) + std::abs(clip.y) + std::abs(clip.w));
-    outside[0] = outside[0] && clip.x > clip.w + slack;
-    outside[1] = outside[1] && -clip.x > clip.w + slack;
-    outside[2] = outside[2] && clip.y > clip.w + slack;
-    outside[3] = outside[3] && -clip.y > clip.w + slack;
-  }
-  return !outside[0] && !outside[1] && !outside[2] && !outside[3];
 }
 
 // What a program reads of the scene and the map.
@@ -134,9 +115,11 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
                          .fragment = {fragment, {}},
                          .specializations = {{.id = 0, .value = key.masked ? 1 : 0},
                                              {.id = 1, .value = static_cast<int32_t>(key.pass)},
-                                             {.id = 2, .value = key.mapKind}},
+                                             {.id = 2, .value = key.mapKind},
+                                             {.id = 3, .value = key.viewMask != 0 ? 1 : 0}},
                          .depthFormat = VK_FORMAT_D32_SFLOAT,
-                         .depthCompare = VK_COMPARE_OP_LESS};
+                         .depthCompare = VK_COMPARE_OP_LESS,
+                         .viewMask = key.viewMask};
   if (second) desc.colorFormats = {VK_FORMAT_R32_SFLOAT};
   if (key.pass == Pass::Blend) {
     desc.depthCompare = VK_COMPARE_OP_GREATER;
@@ -153,15 +136,21 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
   const bool backFaces = layer.map.content() == MapContent::BackFaces;
   const bool mirrors = (shaders.mirroredLayers >> layer.index & 1u) != 0;
   const LayerPush push{.layer = layer.index};
+  const LayerCulling culling(layer.map.fitted_, layer.index, layer.count);
+  std::vector<std::vector<LayerCulling::Range>> shown;  // of each draw
+  for (const Draw& d : scene.draws) shown.push_back(culling.rangesOf(scene, d));
   commands.beginRendering(layer.targets);
   for (const bool masked : {false, true}) {
     for (const Group group : {Group::Sheets, Group::Solids, Group::MirroredSolids}) {
-      const auto wanted = [&](const Draw& d) {
-        return d.masked == masked && groupOf(d) == group &&
-               (!shaders.projective || mayFallOn(layer.map.fitted_, layer.index, d.boundsW));
+      const auto wanted = [&](size_t i) {
+        const Draw& d = scene.draws[i];
+        return d.masked == masked && groupOf(d) == group && !shown[i].empty();
       };
-      if (std::ranges::none_of(scene.draws, wanted)) continue;
-      const gpu::GraphicsProgram& drawn = program({shaders, layer.pass, masked, layer.map.kind()});
+      size_t next = 0;
+      while (next < shown.size() && !wanted(next)) ++next;
+      if (next == shown.size()) continue;
+      const gpu::GraphicsProgram& drawn =
+          program({shaders, layer.pass, masked, layer.map.kind(), layer.targets.viewMask});
       commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
                     bindingsOf(drawn, scene, layer.map, bounded_));
       const bool clockwise = (group == Group::MirroredSolids) != mirrors;
@@ -170,7 +159,10 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
                                                  : VK_CULL_MODE_BACK_BIT,
                           clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
       commands.bindIndexBuffer(scene.triangles);
-      recordDraws(commands, scene, wanted);
+      for (; next < shown.size(); ++next)
+        if (wanted(next))
+          for (const LayerCulling::Range& range : shown[next])
+            commands.drawIndexed(range.indexCount, 1, range.firstIndex, 0, scene.draws[next].instance);
     }
   }
   commands.endRendering();
@@ -194,7 +186,7 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
     for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
       bounded_.record(commands, scene, layer.map.uniforms(), shaders.bounds, layer.index, batch);
       commands.beginRendering(targets);
-      const gpu::GraphicsProgram& drawn = program({shaders, layer.pass, masked, layer.map.kind()});
+      const gpu::GraphicsProgram& drawn = program({shaders, layer.pass, masked, layer.map.kind(), 0});
       commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
                     bindingsOf(drawn, scene, layer.map, bounded_));
       commands.drawIndirect(bounded_.arguments());
@@ -210,8 +202,35 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
   commands.endRendering();
 }
 
+bool MapRenderer::takesMultiview(const MapImage& map) const {
+  const LayerShaders& shaders = map.fitted_.shaders;
+  if (shaders.passes == LayerPasses::Each) return false;
+  auto found = std::ranges::find(multiviewChecks_, shaders, &decltype(multiviewChecks_)::value_type::first);
+  if (found == multiviewChecks_.end()) {
+    const auto draw = [this](const SceneBuffers& scene, MapImage& tried, bool multiview) {
+      gpu::Commands commands(device_, "multiview check");
+      recordLayers(commands, scene, tried, {}, CullMode::None, SecondLayer::Blend, multiview);
+      return commands.submitAndWait().wallMs;
+    };
+    found = multiviewChecks_.insert(found, {shaders, checkMultiview(device_, map.fitted_, draw)});
+  }
+  const MultiviewCheck& check = found->second;
+  if (shaders.passes == LayerPasses::Multiview && !check.same)
+    throw WorldError(
+        fmt::format("--cube-passes multiview: device '{}' draws triangles to the wrong layers in one pass; "
+                    "choose six or auto",
+                    device_.info().name));
+  return shaders.passes == LayerPasses::Multiview || (check.same && check.faster);
+}
+
 void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
                          const LightModel& light, CullMode cull, SecondLayer method) const {
+  recordLayers(commands, scene, map, light, cull, method, takesMultiview(map));
+}
+
+void MapRenderer::recordLayers(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
+                               const LightModel& light, CullMode cull, SecondLayer method,
+                               bool multiview) const {
   const bool backFaces = map.content() == MapContent::BackFaces;
   const Grouping groupOf = [&](const Draw& draw) {
     const bool culled = (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
@@ -228,17 +247,23 @@ void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, Map
     map.peelDepth_ =
         gpu::Image(device_, layersDesc("peel depth", VK_FORMAT_D32_SFLOAT,
                                        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, map.fitted_.map));
-  for (int layer = 0; layer < map.layerCount(); ++layer) {
-    const auto target = static_cast<uint32_t>(layer);
-    recordLayer({map, layer, Pass::First, {.depth = &map.depth(), .clearDepth = 1.0f, .layer = target}});
+  const int count = multiview ? map.layerCount() : 1;
+  for (int layer = 0; layer < map.layerCount(); layer += count) {
+    gpu::RenderTargets first{.depth = &map.depth(), .clearDepth = 1.0f};
+    if (multiview)
+      first.viewMask = (1u << count) - 1u;
+    else
+      first.layer = static_cast<uint32_t>(layer);
+    recordLayer({map, layer, count, Pass::First, first});
     if (map.content() != MapContent::TwoLayers) continue;
     commands.barrier("the first layer's depth is written -> the second layer tests against it");
     gpu::RenderTargets second{
         .colors = {{.image = &map.second_, .clear = VkClearColorValue{.float32 = {1.0f, 0.0f, 0.0f, 0.0f}}}},
         .depth = peels ? &map.peelDepth_ : &map.depth(),
-        .layer = target};
+        .layer = first.layer,
+        .viewMask = first.viewMask};
     if (peels) second.clearDepth = 1.0f;
-    recordLayer({map, layer, peels ? Pass::Peel : Pass::Blend, second});
+    recordLayer({map, layer, count, peels ? Pass::Peel : Pass::Blend, second});
   }
 }
 

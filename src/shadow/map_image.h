@@ -4,6 +4,7 @@
 
 #include "shadow/bias.h"
 #include "shadow/bounded_draws.h"
+#include "shadow/multiview_check.h"
 #include "shadow/parameterization.h"
 
 #include "shared/shade.glsl"
@@ -59,7 +60,9 @@ class MapRenderer {
   explicit MapRenderer(const gpu::Device& device);
 
   // `light` decides which solids may be culled: one that holds the light within its bounds shows it back
-  // faces only, and is drawn whole.
+  // faces only, and is drawn whole. Throws WorldError where the map asks for LayerPasses::Multiview and the
+  // device draws other layers so. The first map that does not ask for a pass a layer is kept waiting by the
+  // check of the device.
   void record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
               CullMode cull, SecondLayer method = SecondLayer::Blend) const;
 
@@ -70,6 +73,7 @@ class MapRenderer {
     Pass pass;
     bool masked;
     int mapKind;
+    uint32_t viewMask;
     bool operator==(const Key&) const = default;
   };
   struct Entry {
@@ -77,15 +81,20 @@ class MapRenderer {
     gpu::GraphicsProgram program;
   };
   const gpu::GraphicsProgram& program(const Key& key) const;
+  // What one pass draws.
   struct Layer {
     const MapImage& map;
     int index;
+    int count;  // 1, or all at once
     Pass pass;
     gpu::RenderTargets targets;
   };
   // How a draw's triangles are culled: sheets not at all, solids by the side they show the light.
   enum class Group { Sheets, Solids, MirroredSolids };
   using Grouping = std::function<Group(const Draw&)>;
+  void recordLayers(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
+                    const LightModel& light, CullMode cull, SecondLayer method, bool multiview) const;
+  bool takesMultiview(const MapImage& map) const;
   void recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
                      const Grouping& groupOf) const;
   void recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
@@ -94,6 +103,7 @@ class MapRenderer {
   const gpu::Device& device_;
   mutable std::vector<std::unique_ptr<Entry>> programs_;  // compiled at first use
   mutable BoundedDraws bounded_;
+  mutable std::vector<std::pair<LayerShaders, MultiviewCheck>> multiviewChecks_;
 };
 
 }  // namespace gnomon

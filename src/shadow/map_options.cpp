@@ -17,6 +17,7 @@ constexpr std::array<const char*, 3> kWindowFitNames = {"none", "tight", "focuse
 constexpr std::array<const char*, 4> kWarpNames = {"none", "psm", "lispsm", "tsm"};
 constexpr std::array<const char*, 2> kSnapNames = {"off", "on"};
 constexpr std::array<const char*, 2> kCubeDepthNames = {"hyperbolic", "radial"};
+constexpr std::array<const char*, 3> kCubePassesNames = {"auto", "six", "multiview"};
 constexpr std::array<const char*, 3> kParaboloidRasterNames = {"vertex", "tessellated", "exact"};
 
 constexpr std::array<const char*, 2> kVolumeSourceNames = {"resample", "direct"};
@@ -57,6 +58,9 @@ bool parseSnap(const std::string& name) {
 CubeDepth parseCubeDepth(const std::string& name) {
   return static_cast<CubeDepth>(parseName("--cube-depth", name, kCubeDepthNames));
 }
+LayerPasses parseCubePasses(const std::string& name) {
+  return static_cast<LayerPasses>(parseName("--cube-passes", name, kCubePassesNames));
+}
 ParaboloidRaster parseParaboloidRaster(const std::string& name) {
   return static_cast<ParaboloidRaster>(parseName("--paraboloid-raster", name, kParaboloidRasterNames));
 }
@@ -94,6 +98,9 @@ const char* warpName(Warp warp) {
 }
 const char* cubeDepthName(CubeDepth depth) {
   return kCubeDepthNames[static_cast<size_t>(depth)];
+}
+const char* cubePassesName(LayerPasses passes) {
+  return kCubePassesNames[static_cast<size_t>(passes)];
 }
 const char* paraboloidRasterName(ParaboloidRaster raster) {
   return kParaboloidRasterNames[static_cast<size_t>(raster)];

@@ -2,6 +2,8 @@
 // Choices of how a map is fitted and drawn that a user may make: each parameterization reads what concerns
 // it.
 
+#include "shadow/layer_shaders.h"
+
 #include <array>
 #include <optional>
 #include <string>
@@ -64,6 +66,7 @@ struct MapOptions {
   Warp warp = Warp::None;
   int cascades = 1;  // directional maps: layers, finest first
   CubeDepth cubeDepth = CubeDepth::Hyperbolic;
+  LayerPasses cubePasses = LayerPasses::Auto;
   ParaboloidRaster paraboloidRaster = ParaboloidRaster::Exact;
   std::optional<glm::dvec3>
       paraboloidAxisW;  // unit; absent: the seam is turned away from what the camera sees
@@ -83,6 +86,7 @@ bool snaps(const MapOptions& options);
 WindowFit parseWindowFit(const std::string& name);                // none, tight, focused
 Warp parseWarp(const std::string& name);                          // none, psm, lispsm, tsm
 CubeDepth parseCubeDepth(const std::string& name);                // hyperbolic, radial
+LayerPasses parseCubePasses(const std::string& name);             // auto, six, multiview
 bool parseSnap(const std::string& name);                          // on, off
 ParaboloidRaster parseParaboloidRaster(const std::string& name);  // vertex, tessellated, exact
 VolumeSize parseVolumeSize(const std::string& text);              // AxTxP
@@ -91,6 +95,7 @@ VolumeFit parseVolumeFit(const std::string& name);                // frustum, fu
 const char* windowFitName(WindowFit fit);
 const char* warpName(Warp warp);
 const char* cubeDepthName(CubeDepth depth);
+const char* cubePassesName(LayerPasses passes);
 const char* paraboloidRasterName(ParaboloidRaster raster);
 // Half of each side, as far as that is a size.
 VolumeSize halvedSize(const VolumeSize& size);

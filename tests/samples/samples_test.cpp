@@ -4,6 +4,7 @@
 #include "gpu/device.h"
 #include "tests/base/temporary_folder.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
@@ -73,13 +74,30 @@ TEST(Samples05, AMapOfOnesOwnIsScoredBesideTheCube) {
   EXPECT_EQ(rows, 4);
 }
 
+std::string messageOf(const std::filesystem::path& scene, const std::filesystem::path& folder) {
+  const std::filesystem::path messages = folder / "stderr";
+  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/01_point_light_cube " + scene.string() +
+                              " " + (folder / "x.png").string() + " 2>" + messages.string();
+  EXPECT_NE(std::system(command.c_str()), 0);
+  const std::string message = readFile(messages);
+  EXPECT_EQ(std::ranges::count(message, '\n'), 1) << message;
+  return message;
+}
+
 TEST(SampleMistakes, AMissingSceneIsOneLine) {
   const test::TemporaryFolder folder;
-  const std::filesystem::path messages = folder.path() / "stderr";
-  const std::string command =
-      std::string(GNOMON_SAMPLES_DIR) + "/01_point_light_cube nowhere.glb x.png 2>" + messages.string();
-  EXPECT_NE(std::system(command.c_str()), 0);
-  EXPECT_NE(readFile(messages).find("nowhere.glb"), std::string::npos);
+  EXPECT_NE(messageOf("nowhere.glb", folder.path()).find("nowhere.glb"), std::string::npos);
+}
+
+TEST(SampleMistakes, ASceneWithoutACameraIsOneLine) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "triangle.gltf";
+  writeTextFile(path, R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],
+    "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  EXPECT_NE(messageOf(path, folder.path()).find("has no camera"), std::string::npos);
 }
 
 }  // namespace

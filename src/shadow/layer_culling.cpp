@@ -1,0 +1,70 @@
+#include "shadow/layer_culling.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+// Of the coordinates of clip space: a point is projected to within a few ulps. What is let through is clipped
+// anyway.
+constexpr float kSlack = 1e-3f;
+
+}  // namespace
+
+LayerCulling::LayerCulling(const FittedMap& fitted, int first, int count) : frame_(fitted.frame) {
+  if (!fitted.shaders.projective) return;
+  for (int layer = first; layer < first + count; ++layer) {
+    const glm::mat4 rows = glm::transpose(fitted.map.mapLayers[layer].clipFromLight);
+    Layer made{.fromLight = {rows[0], rows[1], rows[3]}, .fromWorld = {}};
+    for (int i = 0; i < 3; ++i)
+      made.fromWorld[i] = frame_.rightW * made.fromLight[i].x + frame_.upW * made.fromLight[i].y +
+                          frame_.backW * made.fromLight[i].z;
+    layers_.push_back(made);
+  }
+}
+
+// A box lies outside one side of the clip volume where +-x - w (+-y - w) is positive in all of it; over the
+// box such a sum is what it is at the centre, give or take the half size times its gradient.
+bool LayerCulling::mayShow(const Layer& layer, const glm::vec3& centerL, const glm::vec3& halfSizeW) const {
+  float center[3], sum = 0.0f;
+  for (int i = 0; i < 3; ++i) {
+    center[i] = glm::dot(layer.fromLight[i], glm::vec4(centerL, 1.0f));
+    sum += std::abs(center[i]) + glm::dot(glm::abs(layer.fromWorld[i]), halfSizeW);
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    for (const float sign : {-1.0f, 1.0f}) {
+      const glm::vec3 gradient = sign * layer.fromWorld[axis] - layer.fromWorld[2];
+      const float least = sign * center[axis] - center[2] - glm::dot(glm::abs(gradient), halfSizeW);
+      if (least > kSlack * sum) return false;
+    }
+  }
+  return true;
+}
+
+bool LayerCulling::mayShow(const Bounds& boundsW) const {
+  const glm::vec3 centerL = glsl::lightFromWorld(frame_, 0.5f * (boundsW.lower + boundsW.upper));
+  const glm::vec3 halfSizeW = 0.5f * (boundsW.upper - boundsW.lower);
+  return layers_.empty() ||
+         std::ranges::any_of(layers_, [&](const Layer& layer) { return mayShow(layer, centerL, halfSizeW); });
+}
+
+std::vector<LayerCulling::Range> LayerCulling::rangesOf(const SceneBuffers& scene, const Draw& draw) const {
+  if (!mayShow(draw.boundsW)) return {};
+  if (draw.partCount == 0 || layers_.empty()) return {{draw.firstIndex, draw.indexCount}};
+  std::vector<Range> ranges;
+  bool goesOn = false;
+  for (uint32_t part = 0; part < draw.partCount; ++part) {
+    const bool shown = mayShow(scene.partBoundsW[draw.firstPart + part]);
+    const uint32_t begin = part * kPartIndices;
+    const uint32_t count = std::min(kPartIndices, draw.indexCount - begin);
+    if (shown && goesOn)
+      ranges.back().indexCount += count;
+    else if (shown)
+      ranges.push_back({draw.firstIndex + begin, count});
+    goesOn = shown;
+  }
+  return ranges;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,38 @@
+#pragma once
+// What of a scene some projective layers may show, so that the rest is not sent to them: whole draws, and of
+// large draws the parts that SceneBuffers cuts them in. Nothing that a layer shows is left out.
+
+#include "scene/scene_buffers.h"
+#include "shadow/parameterization.h"
+
+#include <vector>
+
+namespace gnomon {
+
+class LayerCulling {
+ public:
+  // For layers first .. first + count - 1 together. Layers that are not projective may show everything.
+  LayerCulling(const FittedMap& fitted, int first, int count);
+
+  bool mayShow(const Bounds& boundsW) const;
+
+  struct Range {
+    uint32_t firstIndex = 0, indexCount = 0;
+  };
+  // Of a draw's triangles in their order, neighbouring parts as one range.
+  std::vector<Range> rangesOf(const SceneBuffers& scene, const Draw& draw) const;
+
+ private:
+  // Rows x, y and w of clip space, as functions of a point in the light's frame and in the world (but for a
+  // constant).
+  struct Layer {
+    glm::vec4 fromLight[3];
+    glm::vec3 fromWorld[3];
+  };
+  bool mayShow(const Layer& layer, const glm::vec3& centerL, const glm::vec3& halfSizeW) const;
+
+  glsl::LightFrame frame_;
+  std::vector<Layer> layers_;
+};
+
+}  // namespace gnomon

@@ -1,0 +1,101 @@
+// A cube's six faces in one pass: the same as six passes, or refused.
+#include "base/error.h"
+#include "omni_fixture.h"
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+using test::Layers;
+using test::World;
+
+class CubePasses : public gpu::GpuTest {
+ protected:
+  Layers draw(const World& world, CubeDepth depth, LayerPasses passes, MapContent content, CullMode cull,
+              SecondLayer method = SecondLayer::Blend) {
+    const FittedMap fitted =
+        test::fitWhole(world, cubeParameterization(), 96, {.cubeDepth = depth, .cubePasses = passes});
+    return test::drawLayers(device(), world, fitted, cull, content, method);
+  }
+};
+
+TEST_F(CubePasses, OnePassGivesTheLayersOfSixOrIsRefusedByName) {
+  size_t refused = 0, equal = 0;
+  for (const char* scene : {"contact", "sheets", "atrium"}) {
+    const World world = test::openWorld(device(), findGeneratedScene(scene)->make());
+    for (const CubeDepth depth : {CubeDepth::Hyperbolic, CubeDepth::Radial}) {
+      for (const SecondLayer method : {SecondLayer::Blend, SecondLayer::Peel}) {
+        const auto drawBy = [&](LayerPasses passes) {
+          return draw(world, depth, passes, MapContent::TwoLayers, CullMode::Solids, method);
+        };
+        const Layers six = drawBy(LayerPasses::Each);
+        const Layers chosen = drawBy(LayerPasses::Auto);
+        EXPECT_EQ(chosen.z1, six.z1) << scene;
+        EXPECT_EQ(chosen.z2, six.z2) << scene;
+        try {
+          const Layers one = drawBy(LayerPasses::Multiview);
+          EXPECT_EQ(one.z1, six.z1) << scene;
+          EXPECT_EQ(one.z2, six.z2) << scene;
+          ++equal;
+        } catch (const WorldError& error) {
+          EXPECT_NE(std::string(error.what()).find(device().info().name), std::string::npos);
+          ++refused;
+        }
+      }
+    }
+  }
+  // A device is right or wrong, and not by turns.
+  EXPECT_TRUE(equal == 0 || refused == 0) << equal << " equal, " << refused << " refused";
+  std::printf("one pass: %zu times equal, %zu times refused\n", equal, refused);
+}
+
+// What is not sent to a face changes nothing on it.
+TEST_F(CubePasses, FacesDrawnInPartsEqualFacesThatAreSentEverything) {
+  for (const char* scene : {"crowd:20000", "double-torus", "factory"}) {
+    World world = test::openWorld(device(), openScene(scene), glm::dvec3(0.3, 1.1, -0.2));
+    std::vector<Layers> cut, whole;
+    for (std::vector<Layers>* layers : {&cut, &whole}) {
+      if (layers == &whole)
+        for (Draw& d : world.buffers.draws) {
+          d.partCount = 0;
+          d.boundsW = {.lower = glm::vec3(-1e6f), .upper = glm::vec3(1e6f)};
+        }
+      for (const CubeDepth depth : {CubeDepth::Hyperbolic, CubeDepth::Radial})
+        layers->push_back(draw(world, depth, LayerPasses::Each, MapContent::TwoLayers, CullMode::None));
+    }
+    for (size_t i = 0; i < cut.size(); ++i) {
+      EXPECT_EQ(cut[i].z1, whole[i].z1) << scene;
+      EXPECT_EQ(cut[i].z2, whole[i].z2) << scene;
+    }
+  }
+}
+
+// With something else in place of both ways to draw.
+TEST_F(CubePasses, TheCheckSeesWhatDiffersAndWhatIsFaster) {
+  const World world = test::openWorld(device(), findGeneratedScene("contact")->make());
+  const FittedMap fitted = test::fitWhole(world, cubeParameterization(), 64);
+  const auto fill = [&](MapImage& map, float depth, std::optional<uint32_t> layer) {
+    gpu::Commands commands(device(), "fill");
+    for (uint32_t i = 0; i < 6; ++i) {
+      commands.beginRendering(
+          {.depth = &map.depth(), .clearDepth = layer && *layer == i ? 0.25f : depth, .layer = i});
+      commands.endRendering();
+    }
+    commands.submitAndWait();
+  };
+  const auto check = [&](std::optional<uint32_t> wrongLayer, double eachMs, double multiviewMs, float depth) {
+    return checkMultiview(device(), fitted, [&](const SceneBuffers&, MapImage& map, bool multiview) {
+      fill(map, depth, multiview ? wrongLayer : std::nullopt);
+      return multiview ? multiviewMs : eachMs;
+    });
+  };
+  EXPECT_TRUE(check({}, 2.0, 1.0, 0.5f).same);
+  EXPECT_TRUE(check({}, 2.0, 1.0, 0.5f).faster);
+  EXPECT_FALSE(check({}, 1.0, 2.0, 0.5f).faster);
+  for (uint32_t layer = 0; layer < 6; ++layer) EXPECT_FALSE(check(layer, 2.0, 1.0, 0.5f).same) << layer;
+  EXPECT_FALSE(check({}, 2.0, 1.0, 1.0f).same);  // nothing is drawn: nothing was compared
+}
+
+}  // namespace
+}  // namespace gnomon
