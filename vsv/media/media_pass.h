@@ -7,6 +7,9 @@
 
 #include "shared/medium.glsl"
 
+#include <string>
+#include <vector>
+
 namespace gnomon {
 
 // How the integral along a view ray is taken.
@@ -27,7 +30,60 @@ struct MediaMethod {
 
 struct MediaLightSource {
   glm::dvec3 positionW{0.0};
-  glm::vec3 intensity{1.0f};  // candela, a colour channel each
+  glm::vec3 intensity{1.0f};       // candela, a colour channel each
+  glm::dvec3 coneAxisW{0, -1, 0};  // unit, the way a spot light shines
+  double coneCos = -1.0;           // of its half angle, >= 0; -1: it shines everywhere
+};
+// Point and spot lights. Throws WorldError where it is a directional one.
+MediaLightSource mediaLight(const Light& light);
+
+// Where visibility comes from: a volume (Runs, Bits, Popcount) or a map (March) of the light.
+struct MediaVisibility {
+  const ShadowVolume* volume = nullptr;
+  const MapImage* map = nullptr;
+  MediaVisibility(const ShadowVolume& v) : volume(&v) {}
+  MediaVisibility(const MapImage& m) : map(&m) {}
+};
+
+// Where the view rays of all pixels end, and the eye: what a volume or map for a medium is fitted to
+// (FitInput::receiversW). `reach`: Medium::reach.
+std::vector<glm::dvec3> mediaReceiversW(const glsl::CameraView& camera, const Receivers& receivers,
+                                        double reach);
+
+// Metres from the eye to the farthest corner of the scene's bounds: a reach that ends every view ray.
+float defaultReach(const Scene& scene, const glm::vec3& eyeW);
+
+class MediaPass {
+ public:
+  MediaPass(const gpu::Device& device, int width, int height);
+
+  // Of the frames recorded from now on.
+  void setMedium(const glsl::CameraView& camera, const glsl::Medium& medium);
+
+  // The running integral that record() reads with this volume: once a frame and light, before it, and a
+  // barrier between. Nothing to record for a map. Stage "media table".
+  void recordTable(gpu::Commands& commands, const MediaVisibility& visibility);
+
+  // Light scattered towards the eye; `add`: to what other lights scattered. Stage "media integrate".
+  // Several lights: recordTable, barrier, record, barrier, recordTable of the next.
+  void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+              const MediaVisibility& visibility, const MediaLightSource& light, const MediaMethod& method,
+              bool add);
+
+  const gpu::Buffer& inScattered() const { return inScattered_; }  // vec3 a pixel, cd/m^2, tightly packed
+
+ private:
+  struct Variant {
+    std::string shader;
+    std::vector<gpu::Specialization> constants;
+    gpu::ComputeProgram program;
+  };
+  const gpu::ComputeProgram& program(const char* shader, const std::vector<gpu::Specialization>& constants);
+
+  const gpu::Device& device_;
+  glm::uvec3 groupCount_;
+  gpu::Buffer uniforms_, running_, inScattered_;
+  std::vector<std::unique_ptr<Variant>> variants_;  // compiled at first use
 };
 
 }  // namespace gnomon
