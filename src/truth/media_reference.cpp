@@ -101,12 +101,13 @@ class Tile {
   // One sample in each of `count` strata and at the ends.
   void begin(int count) {
     for (SampledRay& ray : rays_) {
-      std::vector<double> fresh = {0.0, 1.0 - kShortOfEnd};
+      std::vector<double> fresh = {0.0};
       for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
         ray.strata.push_back((static_cast<double>(i) + jitter(ray.pixel, static_cast<size_t>(count), i)) /
                              count);
         fresh.push_back(std::min(ray.strata.back(), 1.0 - kShortOfEnd));
       }
+      fresh.push_back(1.0 - kShortOfEnd);
       sample(ray, fresh);
       sampleBetween(ray, coneCrossings(ray.ray));
     }
@@ -146,33 +147,50 @@ class Tile {
  private:
   void look(const MediaLight& light, std::span<const glm::dvec3> pointsW,
             std::span<VisibilitySample> samples) {
+    blocked_.assign(pointsW.size(), 1);
+    if (light.cosCone > -1.0) {
+      lookWithinCone(light, pointsW);
+    } else {
+      task_.tracer.blockPoints(light.positionW, pointsW, blocked_);
+      traced_ += pointsW.size();
+    }
+    for (size_t i = 0; i < pointsW.size(); ++i) samples[i].lit = blocked_[i] == 0;
+  }
+
+  void lookWithinCone(const MediaLight& light, std::span<const glm::dvec3> pointsW) {
     std::vector<glm::dvec3> within;
     std::vector<size_t> of;
     for (size_t i = 0; i < pointsW.size(); ++i) {
-      samples[i].lit = false;
       const glm::dvec3 towards = pointsW[i] - light.positionW;
-      if (light.cosCone > -1.0 && glm::dot(towards, light.axisW) < light.cosCone * glm::length(towards))
-        continue;
+      if (glm::dot(towards, light.axisW) < light.cosCone * glm::length(towards)) continue;
       within.push_back(pointsW[i]);
       of.push_back(i);
     }
     std::vector<uint8_t> blocked(within.size());
     task_.tracer.blockPoints(light.positionW, within, blocked);
-    for (size_t i = 0; i < of.size(); ++i) samples[of[i]].lit = blocked[i] == 0;
+    for (size_t i = 0; i < of.size(); ++i) blocked_[of[i]] = blocked[i];
     traced_ += within.size();
   }
 
-  // `shares` of the ray's phi.
+  // `shares` of the ray's phi, ascending.
   void sample(SampledRay& ray, std::span<const double> shares) {
     std::vector<VisibilitySample> fresh;
     std::vector<glm::dvec3> pointsW;
+    fresh.reserve(shares.size());
+    pointsW.reserve(shares.size());
     for (const double share : shares) {
       fresh.push_back({.phi = ray.ray.phiFrom + (ray.ray.phiTo - ray.ray.phiFrom) * share});
       pointsW.push_back(ray.ray.pointAt(fresh.back().phi));
     }
     look(ray.ray.light, pointsW, fresh);
+    addSamples(ray, fresh);
+  }
+
+  // `fresh`: by phi.
+  static void addSamples(SampledRay& ray, std::span<const VisibilitySample> fresh) {
+    const auto old = static_cast<std::ptrdiff_t>(ray.samples.size());
     ray.samples.insert(ray.samples.end(), fresh.begin(), fresh.end());
-    std::ranges::stable_sort(ray.samples, {}, &VisibilitySample::phi);
+    std::ranges::inplace_merge(ray.samples, ray.samples.begin() + old, {}, &VisibilitySample::phi);
   }
 
   // One within each stretch that the crossings leave, however short.
@@ -185,6 +203,7 @@ class Tile {
       shares.push_back((0.5 * (crossings[i] + next) - ray.ray.phiFrom) / span);
       shares.push_back((0.5 * (before + crossings[i]) - ray.ray.phiFrom) / span);
     }
+    std::ranges::sort(shares);
     if (!shares.empty()) sample(ray, shares);
   }
 
@@ -225,12 +244,14 @@ class Tile {
         halve(light, open);
       }
     }
-    for (const Edge& edge : edges) {
-      edge.of->samples.push_back(edge.before);
-      edge.of->samples.push_back(edge.after);
+    for (size_t from = 0; from < edges.size();) {  // ray after ray
+      std::vector<VisibilitySample> fresh;
+      size_t i = from;
+      for (; i < edges.size() && edges[i].of == edges[from].of; ++i)
+        fresh.insert(fresh.end(), {edges[i].before, edges[i].after});
+      addSamples(*edges[from].of, fresh);
+      from = i;
     }
-    if (edges.empty()) return;
-    for (SampledRay& ray : rays_) std::ranges::stable_sort(ray.samples, {}, &VisibilitySample::phi);
   }
 
   void halve(const MediaLight& light, std::span<Edge* const> edges) {
@@ -272,6 +293,7 @@ class Tile {
   const Task& task_;
   std::vector<uint32_t> pixels_;
   std::vector<SampledRay> rays_;  // light after light
+  std::vector<uint8_t> blocked_;
   uint64_t traced_ = 0;
 };
 
