@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "lab/results.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr int kNewestSchema = 2;
+constexpr int kNewestSchema = kResultsVersion;
 constexpr int kMaxSide = 16384;  // of a picture, pixels
 
 // A value and where it stands in the file, for messages: "rows[3].bias".

@@ -1,6 +1,6 @@
 #pragma once
-// What a report is made of: results.json as docs/results.md has it, read back and checked. Schema 2; of
-// schema 1, which had fewer fields, what there is.
+// What a report is made of: results.json as docs/results.md has it, read back and checked. Schema 3; of
+// those before, which had fewer fields, what there is.
 
 #include <cstdint>
 #include <filesystem>
