@@ -97,6 +97,11 @@ MediaPass::MediaPass(const gpu::Device& device, int width, int height)
       uniforms_(device, {.name = "media uniforms",
                          .size = sizeof(glsl::MediaUniforms),
                          .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
+      running_(device, {.name = "running integral",
+                        .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                        .width = glsl::kTableColumns,
+                        .height = glsl::kTableRows,
+                        .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}),
       inScattered_(device, {.name = "in-scattered light",
                             .size = static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height) *
                                     sizeof(glm::vec3)}) {}
@@ -120,9 +125,6 @@ void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& me
 
 void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visibility) {
   if (visibility.volume == nullptr) return;
-  const VkDeviceSize size = sizeof(glm::vec3) * glsl::kTableRows *
-                            (static_cast<VkDeviceSize>(visibility.volume->fitted().grid.phiCount) + 1);
-  if (running_.size() != size) running_ = gpu::Buffer(device_, {.name = "running integral", .size = size});
   commands.beginStage("media table");
   commands.dispatch(program("vsv/tabulate_scattering.comp.glsl", {}),
                     {groups(glsl::kTableRows, glsl::kTableGroupSize), 1, 1}, {},

@@ -82,7 +82,9 @@ class MediaPass {
 
   const gpu::Device& device_;
   glm::uvec3 groupCount_;
-  gpu::Buffer uniforms_, running_, inScattered_;
+  gpu::Buffer uniforms_;
+  gpu::Image running_;
+  gpu::Buffer inScattered_;
   std::vector<std::unique_ptr<Variant>> variants_;  // compiled at first use
 };
 
