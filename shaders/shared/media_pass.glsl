@@ -11,6 +11,8 @@ GNOMON_SHARED_BEGIN
 const int kBindMedia = 20;        // MediaUniforms
 const int kBindRunning = 21;      // the running integral: rgba32f, columns by rows
 const int kBindInScattered = 22;  // vec3 a pixel, cd/m^2
+const int kBindSurface = 23;      // vec3 a pixel, cd/m^2: surfaces, seen through the medium
+const int kBindMediaRadiance = 24;  // vec3 a pixel, cd/m^2: both
 
 const int kMediaGroupSide = 8;    // pixels; the work group is square
 const int kTableGroupSize = 8;    // rows of the table
