@@ -9,8 +9,10 @@
 GNOMON_SHARED_BEGIN
 
 const int kBindMedia = 20;        // MediaUniforms
-const int kBindRunning = 21;      // the running integral: vec3 for each row of alpha and border of a phi bin, rows fastest
+const int kBindRunning = 21;      // the running integral: rgba32f, columns by rows
 const int kBindInScattered = 22;  // vec3 a pixel, cd/m^2
+const int kBindSurface = 23;      // vec3 a pixel, cd/m^2: surfaces, seen through the medium
+const int kBindMediaRadiance = 24;  // vec3 a pixel, cd/m^2: both
 
 const int kMediaGroupSide = 8;    // pixels; the work group is square
 const int kTableGroupSize = 8;    // rows of the table
@@ -20,8 +22,9 @@ const int kIntegrateRuns = 0;
 const int kIntegrateBits = 1;
 const int kIntegratePopcount = 2;
 
-// Rows of the table between the volume's lowest and highest alpha, both of which have one.
-const int kTableRows = 257;
+// Of the table of the running integral. Rows between the volume's lowest and highest alpha, both of which have one.
+const int kTableRows = 513;
+const int kTableColumns = 513;
 
 struct MediaUniforms {
   CameraView camera;

@@ -71,6 +71,11 @@ GNOMON_FN vec3 scatteringBetween(Medium medium, float eyeDistance, float alpha, 
   return (scatteringIntegrand(medium, eyeDistance, alpha, middle - node) + scatteringIntegrand(medium, eyeDistance, alpha, middle + node)) * half_;
 }
 
+// The running integral over phi from 0 is tabulated: rows of equal alpha, columns of equal share of the phi that the row has in the volume,
+// which ends at `phiUpper`, and where the view ray looks away from the light, at pi - alpha. There all of the integrand shrinks with that end,
+// and columns that did not would miss it.
+GNOMON_FN float phiOfLastColumn(float phiUpper, float alpha) { return min(phiUpper, kPi - alpha); }
+
 // sigmaS / (D sin alpha), the factor of the integral over phi, 1/m^2. Towards the light itself the integral diverges; a direction is good to
 // 2^-23, and nearer to the light than that the ray is taken to pass it at that angle.
 GNOMON_FN vec3 scatteringFactor(Medium medium, float eyeDistance, float sinAlpha) {

@@ -23,6 +23,10 @@ uint32_t groups(int count, int size) {
   return static_cast<uint32_t>((count + size - 1) / size);
 }
 
+VkDeviceSize pictureBytes(int width, int height) {
+  return static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height) * sizeof(glm::vec3);
+}
+
 glsl::MediaPush pushFor(const MediaLightSource& light, const MediaMethod& method, bool add) {
   return {.lightW = glm::vec3(light.positionW),
           .intensity = light.intensity,
@@ -97,9 +101,14 @@ MediaPass::MediaPass(const gpu::Device& device, int width, int height)
       uniforms_(device, {.name = "media uniforms",
                          .size = sizeof(glsl::MediaUniforms),
                          .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
-      inScattered_(device, {.name = "in-scattered light",
-                            .size = static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height) *
-                                    sizeof(glm::vec3)}) {}
+      running_(device, {.name = "running integral",
+                        .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                        .width = glsl::kTableColumns,
+                        .height = glsl::kTableRows,
+                        .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}),
+      inScattered_(device, {.name = "in-scattered light", .size = pictureBytes(width, height)}),
+      surfaces_(device, {.name = "surfaces in the medium", .size = pictureBytes(width, height)}),
+      radiance_(device, {.name = "radiance with the medium", .size = pictureBytes(width, height)}) {}
 
 const gpu::ComputeProgram& MediaPass::program(const char* shader,
                                               const std::vector<gpu::Specialization>& constants) {
@@ -120,9 +129,6 @@ void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& me
 
 void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visibility) {
   if (visibility.volume == nullptr) return;
-  const VkDeviceSize size = sizeof(glm::vec3) * glsl::kTableRows *
-                            (static_cast<VkDeviceSize>(visibility.volume->fitted().grid.phiCount) + 1);
-  if (running_.size() != size) running_ = gpu::Buffer(device_, {.name = "running integral", .size = size});
   commands.beginStage("media table");
   commands.dispatch(program("vsv/tabulate_scattering.comp.glsl", {}),
                     {groups(glsl::kTableRows, glsl::kTableGroupSize), 1, 1}, {},
@@ -161,6 +167,35 @@ void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const
         groupCount_, gpu::asPush(push), bindings);
   }
   commands.endStage();
+}
+
+void MediaPass::recordSurfaces(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                               const gpu::Buffer& shade, const gpu::Buffer& visibility, bool add) {
+  commands.beginStage("media surfaces");
+  commands.dispatch(program("vsv/shade_surface_in_medium.comp.glsl", {}), groupCount_,
+                    gpu::asPush(glsl::MediaPush{.add = add ? 1 : 0}),
+                    {{glsl::kBindPositions, scene.positions},
+                     {glsl::kBindTriangles, scene.triangles},
+                     {glsl::kBindInstances, scene.instances},
+                     {glsl::kBindUvs, scene.uvs},
+                     {glsl::kBindNormals, scene.normals},
+                     {glsl::kBindMaterials, scene.materials},
+                     {glsl::kBindTextures, scene.textures},
+                     {glsl::kBindTexels, scene.texels},
+                     {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+                     {glsl::kBindShade, shade},
+                     {glsl::kBindVisibility, visibility},
+                     {glsl::kBindMedia, uniforms_},
+                     {glsl::kBindSurface, surfaces_}});
+  commands.endStage();
+}
+
+void MediaPass::recordSum(gpu::Commands& commands) {
+  commands.dispatch(program("vsv/add_scattered_light.comp.glsl", {}), groupCount_, {},
+                    {{glsl::kBindMedia, uniforms_},
+                     {glsl::kBindInScattered, inScattered_},
+                     {glsl::kBindSurface, surfaces_},
+                     {glsl::kBindMediaRadiance, radiance_}});
 }
 
 }  // namespace gnomon

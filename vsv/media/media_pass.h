@@ -70,7 +70,18 @@ class MediaPass {
               const MediaVisibility& visibility, const MediaLightSource& light, const MediaMethod& method,
               bool add);
 
-  const gpu::Buffer& inScattered() const { return inScattered_; }  // vec3 a pixel, cd/m^2, tightly packed
+  // The surfaces' own light, attenuated from the light and to the eye. `shade` and `visibility`: a
+  // VisibilityPass's of the same camera, with lightColor the intensity over pi. Stage "media surfaces".
+  void recordSurfaces(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                      const gpu::Buffer& shade, const gpu::Buffer& visibility, bool add);
+
+  // Surfaces and scattered light: radiance(). After a barrier behind both.
+  void recordSum(gpu::Commands& commands);
+
+  // A vec3 a pixel each, cd/m^2, tightly packed.
+  const gpu::Buffer& inScattered() const { return inScattered_; }
+  const gpu::Buffer& surfaces() const { return surfaces_; }
+  const gpu::Buffer& radiance() const { return radiance_; }
 
  private:
   struct Variant {
@@ -82,7 +93,9 @@ class MediaPass {
 
   const gpu::Device& device_;
   glm::uvec3 groupCount_;
-  gpu::Buffer uniforms_, running_, inScattered_;
+  gpu::Buffer uniforms_;
+  gpu::Image running_;
+  gpu::Buffer inScattered_, surfaces_, radiance_;
   std::vector<std::unique_ptr<Variant>> variants_;  // compiled at first use
 };
 
