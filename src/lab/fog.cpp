@@ -41,10 +41,11 @@ void judgeRows(FogResult& result) {
   const Image8 exact = exposed(composed(result.view, reference), result.exposure);
   for (size_t i = 0; i < result.rows.size(); ++i) {
     result.rows[i].relRmse = relativeRmse(result.inScattered[i], reference);
+    result.rows[i].relRmse99 = relativeRmse(result.inScattered[i], reference, 0.99);
     result.rows[i].flip =
         computeFlip(exact, exposed(composed(result.view, result.inScattered[i]), result.exposure)).mean;
   }
-  result.worst = worstMediaPlace(result.inScattered, reference);
+  result.worst = worstMediaPlace(result.inScattered.front(), reference);
   result.equalTerms = equalTerms(result.rows);
 }
 
@@ -53,12 +54,14 @@ void writePictures(const FogOptions& options, FogResult& result) {
   for (size_t i = 0; i < result.rows.size(); ++i) {
     std::string stem = "media/" + mediaMethodName(result.rows[i].method);
     std::ranges::replace(stem, ' ', '_');
-    result.rows[i].pictures = writeMediaRowPictures(result.view, result.inScattered[i], reference,
-                                                    result.worst, result.exposure, stem, options.outDir);
+    result.rows[i].pictures =
+        writeMediaRowPictures(result.view, result.inScattered[i], reference, result.worst,
+                              {result.exposure, result.mediumExposure}, stem, options.outDir);
   }
   if (reference == nullptr) return;
-  result.pictures = writeMediaRowPictures(result.view, *reference, nullptr, std::nullopt, result.exposure,
-                                          "media/reference", options.outDir);
+  result.pictures =
+      writeMediaRowPictures(result.view, *reference, nullptr, std::nullopt,
+                            {result.exposure, result.mediumExposure}, "media/reference", options.outDir);
 }
 
 }  // namespace
@@ -94,6 +97,8 @@ FogResult runFog(const Session& session, const FogOptions& options) {
   }
   result.exposure =
       exposureFor(result.view, result.reference ? result.reference->inScattered : result.inScattered.front());
+  result.mediumExposure =
+      mediumExposureFor(result.reference ? result.reference->inScattered : result.inScattered.front());
   if (result.reference) judgeRows(result);
   if (options.motion) runMotion(session, passes.renderers, options, result);
   if (!options.outDir.empty()) writePictures(options, result);

@@ -38,13 +38,14 @@ inline constexpr int kMostFrames = 9999;
 
 struct FogResult {
   FogView view;
-  FogExposure exposure;
+  FogExposure exposure;        // of surfaces and medium together
+  FogExposure mediumExposure;  // of the medium alone
   std::optional<MediaReference> reference;
   bool referenceFromCache = false;
   std::vector<MediaRow> rows;
   std::vector<ImageF> inScattered;     // one a row, rgb, cd/m^2
   std::vector<EqualTerms> equalTerms;  // of the volume's ways against the march
-  std::optional<WorstPlace> worst;     // where the rows together err most
+  std::optional<WorstPlace> worst;     // where the first row errs most
   Pictures pictures;                   // of the reference
   std::string motionNote;              // of --frames: where the video is, or why there is none
   double gbufferMs = 0.0;

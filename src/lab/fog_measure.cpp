@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -17,14 +18,26 @@ struct CurvePoint {
   double ms = 0.0, error = 0.0;
 };
 
-// From the fewest steps to the most, by time.
-std::vector<CurvePoint> marchCurve(const std::vector<MediaRow>& rows, bool withBuild) {
+std::optional<double> errorOf(const MediaRow& row, ErrorMeasure measure) {
+  return measure == ErrorMeasure::RelRmse ? row.relRmse : row.relRmse99;
+}
+
+double costOf(const MediaRow& row, bool withBuild) {
+  return withBuild ? row.totalMs() : row.integrateMs;
+}
+
+// By time.
+std::vector<CurvePoint> marchCurve(const std::vector<MediaRow>& rows, bool withBuild, ErrorMeasure measure) {
   std::vector<CurvePoint> curve;
   for (const MediaRow& row : rows)
-    if (row.method.integrator == Integrator::March && row.relRmse)
-      curve.push_back({withBuild ? row.totalMs() : row.integrateMs, *row.relRmse});
+    if (row.method.integrator == Integrator::March && errorOf(row, measure))
+      curve.push_back({costOf(row, withBuild), *errorOf(row, measure)});
   std::ranges::sort(curve, {}, &CurvePoint::ms);
   return curve;
+}
+
+bool isUsable(const CurvePoint& point) {
+  return point.ms > 0.0 && point.error > 0.0 && std::isfinite(point.error);
 }
 
 double logarithmic(double x, double x0, double x1, double y0, double y1) {
@@ -60,18 +73,21 @@ double meanValue(const ImageF& image) {
   return image.values.empty() ? 0.0 : sum / static_cast<double>(image.values.size());
 }
 
-double relativeRmse(const ImageF& measured, const ImageF& reference) {
+double relativeRmse(const ImageF& measured, const ImageF& reference, double share) {
   GNOMON_CHECK_EQ(measured.values.size(), reference.values.size());
-  double squares = 0.0;
+  std::vector<double> squares(reference.values.size() / 3, 0.0);  // one a pixel
   for (size_t i = 0; i < reference.values.size(); ++i) {
     const double difference =
         static_cast<double>(measured.values[i]) - static_cast<double>(reference.values[i]);
-    squares += difference * difference;
+    squares[i / 3] += difference * difference;
   }
-  const double rmse = std::sqrt(squares / static_cast<double>(reference.values.size()));
-  if (rmse == 0.0) return 0.0;
+  const auto kept = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(squares.size())));
+  if (kept < std::ssize(squares)) std::ranges::nth_element(squares, squares.begin() + kept);
+  const double sum = std::accumulate(squares.begin(), squares.begin() + kept, 0.0);
+  if (sum == 0.0) return 0.0;
   const double mean = meanValue(reference);
-  return mean > 0.0 ? rmse / mean : std::numeric_limits<double>::infinity();
+  if (!(mean > 0.0)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(sum / (3.0 * static_cast<double>(kept))) / mean;
 }
 
 double changeBeyond(const ImageF& measured, const ImageF& measuredNext, const ImageF& reference,
@@ -87,23 +103,25 @@ double changeBeyond(const ImageF& measured, const ImageF& measuredNext, const Im
   return sum / static_cast<double>(reference.values.size());
 }
 
+const char* errorMeasureName(ErrorMeasure measure) {
+  return measure == ErrorMeasure::RelRmse ? "rel_rmse" : "rel_rmse_99";
+}
+
 std::vector<EqualTerms> equalTerms(const std::vector<MediaRow>& rows) {
   std::vector<EqualTerms> terms;
-  for (const bool withBuild : {true, false}) {
-    const std::vector<CurvePoint> curve = marchCurve(rows, withBuild);
-    const bool usable = !curve.empty() && std::ranges::all_of(curve, [](const CurvePoint& point) {
-      return point.ms > 0.0 && point.error > 0.0 && std::isfinite(point.error);
-    });
-    if (!usable) continue;
-    for (size_t i = 0; i < rows.size(); ++i) {
-      const MediaRow& row = rows[i];
-      if (row.method.integrator == Integrator::March || !row.relRmse) continue;
-      const double ms = withBuild ? row.totalMs() : row.integrateMs;
-      if (!(*row.relRmse > 0.0) || !std::isfinite(*row.relRmse) || !(ms > 0.0)) continue;
-      terms.push_back({.row = i,
-                       .withBuild = withBuild,
-                       .faster = fasterAt(curve, *row.relRmse, ms),
-                       .better = betterAt(curve, ms, *row.relRmse)});
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].method.integrator == Integrator::March) continue;
+    for (const bool withBuild : {true, false}) {
+      for (const ErrorMeasure measure : {ErrorMeasure::RelRmse, ErrorMeasure::RelRmse99}) {
+        const std::vector<CurvePoint> curve = marchCurve(rows, withBuild, measure);
+        const CurvePoint own{costOf(rows[i], withBuild), errorOf(rows[i], measure).value_or(0.0)};
+        if (curve.empty() || !std::ranges::all_of(curve, isUsable) || !isUsable(own)) continue;
+        terms.push_back({.row = i,
+                         .withBuild = withBuild,
+                         .measure = measure,
+                         .faster = fasterAt(curve, own.error, own.ms),
+                         .better = betterAt(curve, own.ms, own.error)});
+      }
     }
   }
   return terms;
@@ -114,20 +132,20 @@ std::string factorText(const Factor& factor) {
   return fmt::format("{}{:.3g}", sign, factor.value);
 }
 
-std::optional<WorstPlace> worstMediaPlace(std::span<const ImageF> measured, const ImageF& reference) {
+std::optional<WorstPlace> worstMediaPlace(const ImageF& measured, const ImageF& reference) {
   const int width = reference.width, height = reference.height;
+  const double mean = meanValue(reference);
   // Summed areas (Crow 1984), one row and column more than the picture.
   const auto stride = static_cast<size_t>(width) + 1;
   std::vector<double> sums(stride * (static_cast<size_t>(height) + 1), 0.0);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       double squares = 0.0;
-      for (const ImageF& image : measured)
-        for (int c = 0; c < 3; ++c) {
-          const double difference =
-              static_cast<double>(image.at(x, y)[c]) - static_cast<double>(reference.at(x, y)[c]);
-          squares += difference * difference;
-        }
+      for (int c = 0; c < 3; ++c) {
+        const double exact = static_cast<double>(reference.at(x, y)[c]);
+        const double share = (static_cast<double>(measured.at(x, y)[c]) - exact) / (exact + mean);
+        if (std::isfinite(share)) squares += share * share;
+      }
       const size_t at = (static_cast<size_t>(y) + 1) * stride + static_cast<size_t>(x) + 1;
       sums[at] = sums[at - stride] + sums[at - 1] - sums[at - stride - 1] + squares;
     }

@@ -19,6 +19,9 @@ struct MediaRow {
   // Of the in-scattered light against the reference, over pixels and channels, as a share of the reference's
   // mean. Absent where there is no reference.
   std::optional<double> relRmse;
+  // The same over the 99 % of the pixels that err least: beside a visible light, where the integrand grows as
+  // 1/r^2, few pixels decide the other.
+  std::optional<double> relRmse99;
   // Mean FLIP of the exposed picture against the reference's, surfaces and all.
   std::optional<double> flip;
   std::optional<double> flicker;  // of --frames
@@ -27,7 +30,8 @@ struct MediaRow {
 
 // The root of the mean square difference, over the reference's mean. 0 where both are black; infinity where
 // only the reference is.
-double relativeRmse(const ImageF& measured, const ImageF& reference);
+// `share`: of the pixels, those that err least.
+double relativeRmse(const ImageF& measured, const ImageF& reference, double share = 1.0);
 
 // What a pixel changes from a frame to the next beyond what the reference changes: the mean of
 // |(measured' - measured) - (reference' - reference)|. Signed changes are compared, so that a pixel that
@@ -49,20 +53,25 @@ struct Factor {
   double value = 0.0;
   Bound bound = Bound::Exact;
 };
+enum class ErrorMeasure { RelRmse, RelRmse99 };
+const char* errorMeasureName(ErrorMeasure measure);  // rel_rmse, rel_rmse_99
 struct EqualTerms {
   size_t row = 0;          // of the rows
   bool withBuild = false;  // volumes, maps and tables count
-  Factor faster;           // at equal error: the march's time over the row's
-  Factor better;           // at equal time: the march's error over the row's
+  ErrorMeasure measure = ErrorMeasure::RelRmse;
+  Factor faster;  // at equal error: the march's time over the row's
+  Factor better;  // at equal time: the march's error over the row's
 };
 
-// Of each row with an error that is no march, with and without builds; empty without a march.
+// Of each row with an error that is no march, with and without builds, by both measures; empty without a
+// march.
 std::vector<EqualTerms> equalTerms(const std::vector<MediaRow>& rows);
 
 // "12.3", ">= 12.3", "<= 0.8".
 std::string factorText(const Factor& factor);
 
-// The square of kWorstSide pixels in which the rows together err most.
-std::optional<WorstPlace> worstMediaPlace(std::span<const ImageF> measured, const ImageF& reference);
+// The square of kWorstSide pixels with the largest errors for their brightness: where shafts' edges are, not
+// where the light itself is.
+std::optional<WorstPlace> worstMediaPlace(const ImageF& measured, const ImageF& reference);
 
 }  // namespace gnomon

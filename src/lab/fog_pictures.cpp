@@ -43,9 +43,8 @@ void writeFogExr(const std::filesystem::path& path, const FogView& view, const I
   writeExr(path, all, {"R", "G", "B", "medium.R", "medium.G", "medium.B"});
 }
 
-Image8 mediaDifferencePicture(const FogView& view, const ImageF& measured, const ImageF& reference,
-                              const FogExposure& exposure) {
-  const Image8 picture = exposed(composed(view, reference), exposure);
+Image8 mediaDifferencePicture(const ImageF& measured, const ImageF& reference, const FogExposure& exposure) {
+  const Image8 picture = exposed(reference, exposure);
   Image8 shown(reference.width, reference.height, 3);
   for (size_t i = 0; i < shown.values.size() / 3; ++i) {
     const float difference =
@@ -69,7 +68,7 @@ Image8 cropped(const Image8& image, const WorstPlace& place, int zoom) {
 }
 
 Pictures writeMediaRowPictures(const FogView& view, const ImageF& inScattered, const ImageF* reference,
-                               const std::optional<WorstPlace>& worst, const FogExposure& exposure,
+                               const std::optional<WorstPlace>& worst, const FogExposures& exposures,
                                const std::string& stem, const std::filesystem::path& outDir) {
   Pictures pictures;
   const auto write = [&](const char* kind, const Image8& image) {
@@ -77,16 +76,16 @@ Pictures writeMediaRowPictures(const FogView& view, const ImageF& inScattered, c
     writePng(outDir / path, image);
     pictures.emplace_back(kind, path);
   };
-  const Image8 beauty = exposed(composed(view, inScattered), exposure);
-  write("beauty", beauty);
+  write("beauty", exposed(composed(view, inScattered), exposures.composed));
+  const Image8 medium = exposed(inScattered, exposures.medium);
+  write("medium", medium);
   if (reference != nullptr) {
-    const Image8 difference = mediaDifferencePicture(view, inScattered, *reference, exposure);
+    const Image8 difference = mediaDifferencePicture(inScattered, *reference, exposures.medium);
     write("difference", difference);
-    if (worst) {
-      const Image8 exact = exposed(composed(view, *reference), exposure);
-      write("crop", beside({cropped(beauty, *worst, kCropZoom), cropped(exact, *worst, kCropZoom),
+    if (worst)
+      write("crop", beside({cropped(medium, *worst, kCropZoom),
+                            cropped(exposed(*reference, exposures.medium), *worst, kCropZoom),
                             cropped(difference, *worst, kCropZoom)}));
-    }
   }
   writeFogExr(outDir / (stem + ".exr"), view, inScattered);
   pictures.emplace_back("data", stem + ".exr");

@@ -48,15 +48,32 @@ std::string shareText(const std::optional<double>& share) {
   return share ? fmt::format("{:.5f}", *share) : "";
 }
 
-std::string termsText(const FogResult& result, const EqualTerms& terms) {
-  const MediaRow& row = result.rows[terms.row];
-  std::string text =
-      fmt::format("{} {}: at equal error {} times faster than march", mediaMethodName(row.method),
-                  terms.withBuild ? "with builds" : "without builds", factorText(terms.faster));
-  if (terms.faster.bound == Bound::AtLeast) text += " (which does not reach it with the most steps tried)";
-  text += fmt::format(", at equal time {} times less error", factorText(terms.better));
-  if (terms.better.bound == Bound::AtLeast) text += " (march takes longer with the fewest steps tried)";
-  return text + "\n";
+// Of a row, with or without builds: both measures in one line.
+std::string termsText(const FogResult& result) {
+  if (result.equalTerms.empty()) return "";
+  std::string text = fmt::format("{:<35}{:>26}{:>28}\n{:<35}{:>14}{:>12}{:>16}{:>12}\n", "against march",
+                                 "times faster at equal", "times less error at equal time", "", "rel rmse",
+                                 "rmse 99%", "rel rmse", "rmse 99%");
+  const auto find = [&](size_t row, bool withBuild, ErrorMeasure measure, bool faster) -> std::string {
+    for (const EqualTerms& terms : result.equalTerms)
+      if (terms.row == row && terms.withBuild == withBuild && terms.measure == measure)
+        return factorText(faster ? terms.faster : terms.better);
+    return "-";
+  };
+  for (size_t row = 0; row < result.rows.size(); ++row) {
+    for (const bool withBuild : {true, false}) {
+      if (result.rows[row].method.integrator == Integrator::March) continue;
+      text += fmt::format("{:<13}{:<22}{:>14}{:>12}{:>16}{:>12}\n", mediaMethodName(result.rows[row].method),
+                          withBuild ? "map, table, integral" : "integral alone",
+                          find(row, withBuild, ErrorMeasure::RelRmse, true),
+                          find(row, withBuild, ErrorMeasure::RelRmse99, true),
+                          find(row, withBuild, ErrorMeasure::RelRmse, false),
+                          find(row, withBuild, ErrorMeasure::RelRmse99, false));
+    }
+  }
+  return text +
+         ">=: the march does not come to that error, or is not that fast, with the steps tried; <=: it is "
+         "better or faster with all of them\n";
 }
 
 Json optionalJson(const std::optional<double>& value) {
@@ -115,6 +132,7 @@ Json rowJson(const MediaRow& row, const FogOptions& options, const FogResult& re
           {"map", row.map},
           {"params", params},
           {"rel_rmse", optionalJson(row.relRmse)},
+          {"rel_rmse_99", optionalJson(row.relRmse99)},
           {"flip", optionalJson(row.flip)},
           {"flicker", optionalJson(row.flicker)},
           {"map_ms", row.mapMs},
@@ -137,6 +155,7 @@ Json termsJson(const EqualTerms& terms, const FogResult& result) {
           {"steps", method.steps > 0 ? Json(method.steps) : Json(nullptr)},
           {"against", "march"},
           {"with_build", terms.withBuild},
+          {"measure", errorMeasureName(terms.measure)},
           {"faster_at_equal_error", factorJson(terms.faster)},
           {"less_error_at_equal_time", factorJson(terms.better)}};
 }
@@ -156,16 +175,18 @@ std::string fogTable(const Session& session, const FogOptions&, const FogResult&
   if (result.reference) text += fmt::format("reference: {}\n", referenceText(result));
   const bool flickers =
       std::ranges::any_of(result.rows, [](const MediaRow& row) { return row.flicker.has_value(); });
-  text += fmt::format("{:<13}{:<22}{:>10}{:>10}{:>10}{:>10}{:>14}{:>10}{}\n", "integrator", "map", "rel rmse",
-                      "flip", "map ms", "table ms", "integrate ms", "all ms", flickers ? "   flicker" : "");
+  text += fmt::format("{:<13}{:<22}{:>10}{:>10}{:>10}{:>10}{:>10}{:>14}{:>10}{}\n", "integrator", "map",
+                      "rel rmse", "rmse 99%", "flip", "map ms", "table ms", "integrate ms", "all ms",
+                      flickers ? "   flicker" : "");
   for (const MediaRow& row : result.rows) {
-    text += fmt::format("{:<13}{:<22}{:>10}{:>10}{:>10.2f}{:>10.2f}{:>14.2f}{:>10.2f}",
+    text += fmt::format("{:<13}{:<22}{:>10}{:>10}{:>10}{:>10.2f}{:>10.2f}{:>14.2f}{:>10.2f}",
                         mediaMethodName(row.method), row.map + " " + row.mapSize, shareText(row.relRmse),
-                        shareText(row.flip), row.mapMs, row.tableMs, row.integrateMs, row.totalMs());
+                        shareText(row.relRmse99), shareText(row.flip), row.mapMs, row.tableMs,
+                        row.integrateMs, row.totalMs());
     if (flickers) text += fmt::format("{:>10}", shareText(row.flicker));
     text += "\n";
   }
-  for (const EqualTerms& terms : result.equalTerms) text += termsText(result, terms);
+  text += termsText(result);
   if (!result.motionNote.empty()) text += result.motionNote + "\n";
   return text;
 }

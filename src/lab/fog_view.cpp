@@ -33,58 +33,26 @@ MediaLight exactLight(const MediaLightSource& source) {
           .cosCone = source.coneCos};
 }
 
-// Metres from the eye, along the pixel's ray, that its surface is seen through the medium.
-double seenThrough(const Session& session, const Exact& exact, size_t pixel, double reach) {
-  return std::min(glm::length(exact.receivers.samples[pixel].positionW - glm::dvec3(session.view().eyeW)),
-                  reach);
-}
-
-// Adds what one pass of radiance gives, dimmed by exp(-sigmaT path(pixel)).
-template <typename Path>
-void addDimmed(const Session& session, Passes& passes, const Exact& exact, const glsl::ShadeUniforms& shade,
-               const MediumModel& medium, const Path& path, ImageF& surface) {
-  std::vector<float> visibility(exact.receivers.states.size(), 0.0f);
-  for (size_t i = 0; i < visibility.size(); ++i) visibility[i] = exact.truth.lit[i] != 0 ? 1.0f : 0.0f;
-  passes.visibility.setUniforms(shade);
-  gpu::upload(session.device(), passes.visibility.visibility(), std::as_bytes(std::span(visibility)));
-  gpu::Commands commands(session.device(), "radiance");
-  passes.radiance.record(commands, session.buffers(), session.gbuffer(), passes.visibility.uniforms(),
-                         passes.visibility.visibility());
-  commands.submitAndWait();
-  const auto radiance = gpu::downloadAs<glm::vec3>(session.device(), passes.radiance.radiance());
-  const glm::dvec3 sigmaT = medium.sigmaS + medium.sigmaA;
-  for (size_t i = 0; i < radiance.size(); ++i) {
-    if (exact.receivers.states[i] == PixelState::Empty) continue;
-    const glm::dvec3 dimmed = glm::dvec3(radiance[i]) * glm::exp(-sigmaT * path(i));
-    for (int c = 0; c < 3; ++c)
-      surface.values[3 * i + static_cast<size_t>(c)] += static_cast<float>(dimmed[c]);
-  }
-}
-
+// With the exact shadow, so that pictures differ by their medium alone.
 ImageF surfaceLayer(const Session& session, Passes& passes, const FogView& view, float ambient,
                     const std::vector<Exact>& exacts) {
-  ImageF surface(session.view().width, session.view().height, 3);
+  MediaPass pass(session.device(), session.view().width, session.view().height);
+  pass.setMedium(session.view(), view.medium);
   for (size_t i = 0; i < exacts.size(); ++i) {
-    const Exact& exact = exacts[i];
-    glsl::ShadeUniforms shade = shadeUniforms(session.view(), exact.light, {});
+    std::vector<float> visibility(exacts[i].truth.lit.begin(), exacts[i].truth.lit.end());
+    glsl::ShadeUniforms shade = shadeUniforms(session.view(), exacts[i].light, {});
     // A diffuse surface reflects albedo / pi.
     shade.lightColor = view.sources[i].intensity * static_cast<float>(1.0 / std::numbers::pi);
-    shade.ambient = glm::vec3(0.0f);
-    const auto bothLegs = [&](size_t pixel) {
-      return seenThrough(session, exact, pixel, view.model.reach) +
-             glm::length(exact.receivers.samples[pixel].positionW - exact.light.positionW);
-    };
-    addDimmed(session, passes, exact, shade, view.model, bothLegs, surface);
+    shade.ambient = glm::vec3(i == 0 ? ambient : 0.0f);
+    passes.visibility.setUniforms(shade);
+    gpu::upload(session.device(), passes.visibility.visibility(), std::as_bytes(std::span(visibility)));
+    gpu::Commands commands(session.device(), "surfaces in a medium");
+    pass.recordSurfaces(commands, session.buffers(), session.gbuffer(), passes.visibility.uniforms(),
+                        passes.visibility.visibility(), i > 0);
+    commands.submitAndWait();
   }
-  if (ambient > 0.0f) {
-    glsl::ShadeUniforms shade = shadeUniforms(session.view(), exacts.front().light, {});
-    shade.lightColor = glm::vec3(0.0f);
-    shade.ambient = glm::vec3(ambient);
-    const auto towardsEye = [&](size_t pixel) {
-      return seenThrough(session, exacts.front(), pixel, view.model.reach);
-    };
-    addDimmed(session, passes, exacts.front(), shade, view.model, towardsEye, surface);
-  }
+  ImageF surface(session.view().width, session.view().height, 3);
+  surface.values = gpu::downloadAs<float>(session.device(), pass.surfaces());
   return surface;
 }
 
@@ -127,7 +95,10 @@ FogView lookIntoFog(const Session& session, Passes& passes, const std::vector<Li
 }
 
 FogExposure exposureFor(const FogView& view, const ImageF& inScattered) {
-  const ImageF radiance = composed(view, inScattered);
+  return mediumExposureFor(composed(view, inScattered));
+}
+
+FogExposure mediumExposureFor(const ImageF& radiance) {
   std::vector<float> largest(radiance.values.size() / 3);
   for (size_t i = 0; i < largest.size(); ++i)
     largest[i] = std::max({radiance.values[3 * i], radiance.values[3 * i + 1], radiance.values[3 * i + 2]});

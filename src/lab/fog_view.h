@@ -46,6 +46,7 @@ struct FogExposure {
 };
 // The 99th percentile of the largest channel comes to 0.9.
 FogExposure exposureFor(const FogView& view, const ImageF& inScattered);
+FogExposure mediumExposureFor(const ImageF& inScattered);
 
 // Surfaces and medium together, rgb, cd/m^2.
 ImageF composed(const FogView& view, const ImageF& inScattered);
