@@ -51,8 +51,8 @@ std::string shareText(const std::optional<double>& share) {
 // Of a row, with or without builds: both measures in one line.
 std::string termsText(const FogResult& result) {
   if (result.equalTerms.empty()) return "";
-  std::string text = fmt::format("{:<35}{:>26}{:>28}\n{:<35}{:>14}{:>12}{:>16}{:>12}\n", "against march",
-                                 "times faster at equal", "times less error at equal time", "", "rel rmse",
+  std::string text = fmt::format("{:<35}{:>26}{:>30}\n{:<35}{:>14}{:>12}{:>16}{:>12}\n", "against march",
+                                 "times faster at equal error", "times less error at equal time", "", "rel rmse",
                                  "rmse 99%", "rel rmse", "rmse 99%");
   const auto find = [&](size_t row, bool withBuild, ErrorMeasure measure, bool faster) -> std::string {
     for (const EqualTerms& terms : result.equalTerms)
