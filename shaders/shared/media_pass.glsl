@@ -2,6 +2,7 @@
 #ifndef GNOMON_MEDIA_PASS_GLSL
 #define GNOMON_MEDIA_PASS_GLSL
 
+#include "shared/density.glsl"
 #include "shared/lang.glsl"
 #include "shared/medium.glsl"
 #include "shared/scene.glsl"
@@ -14,6 +15,11 @@ const int kBindInScattered = 22;  // vec3 a pixel, cd/m^2
 const int kBindSurface = 23;      // vec3 a pixel, cd/m^2: surfaces, seen through the medium
 const int kBindMediaRadiance = 24;  // vec3 a pixel, cd/m^2: both
 
+const int kBindDensity = 25;      // a NanoVDB grid
+const int kBindDensityPlace = 26; // DensityPlace
+const int kBindLightDepth = 27;   // float a direction and radius about the light: metres times density
+const int kBindEyeDepth = 28;     // float a pixel: metres times density to the view ray's end
+
 const int kMediaGroupSide = 8;    // pixels; the work group is square
 const int kTableGroupSize = 8;    // rows of the table
 
@@ -25,6 +31,14 @@ const int kIntegratePopcount = 2;
 // Of the table of the running integral. Rows between the volume's lowest and highest alpha, both of which have one.
 const int kTableRows = 513;
 const int kTableColumns = 513;
+
+// Of the table of density between the light and points about it: directions a side of a layer, whose outer ones lie on its border, and radii.
+const int kLightDepthSide = 128;
+const int kLightDepthRadii = 64;
+
+GNOMON_FN uint lightDepthIndex(int layer, int radius, int x, int y) {
+  return uint(((layer * kLightDepthRadii + radius) * kLightDepthSide + y) * kLightDepthSide + x);
+}
 
 struct MediaUniforms {
   CameraView camera;
@@ -41,10 +55,16 @@ struct MediaPush {
   int add;         // 1: to what other lights scattered
 };
 
+struct DensityPush {
+  MediaPush light;
+  LightReach reach;
+};
+
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(gnomon::glsl::MediaUniforms) == 160);
 static_assert(sizeof(gnomon::glsl::MediaPush) == 48);
+static_assert(sizeof(gnomon::glsl::DensityPush) == 80);
 #endif
 #endif

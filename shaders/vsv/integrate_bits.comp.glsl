@@ -4,6 +4,8 @@
 #include "shared/media_pass.glsl"
 #include "shared/volume.glsl"
 
+layout(scalar, push_constant) uniform Push { MediaPush push; };
+
 #include "vsv/view_ray.glsl"
 
 layout(local_size_x = kMediaGroupSide, local_size_y = kMediaGroupSide) in;

@@ -2,7 +2,8 @@
 // map: what people have today, to compare with.
 #include "shared/map.glsl"
 #include "shared/media_pass.glsl"
-#include "shared/shade.glsl"
+
+layout(scalar, push_constant) uniform Push { MediaPush push; };
 
 #include "vsv/view_ray.glsl"
 
@@ -10,15 +11,7 @@ layout(local_size_x = kMediaGroupSide, local_size_y = kMediaGroupSide) in;
 
 layout(constant_id = 0) const int kMapKind = kMapCube;
 
-layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
-
-// Without bias: there is no surface at a sample to shadow itself. A texel in which nothing was drawn shadows nothing.
-bool isLit(ShadowMap map, vec3 posL) {
-  MapPoint point = mapProject(map, posL);
-  if (!point.covered) return true;
-  float stored = texelFetch(mapDepthLayers, ivec3(mapTexel(map, point.uv), point.layer), 0).x;
-  return stored >= 1.0f || mapDepth(map, point.layer, posL) < stored;
-}
+#include "vsv/map_lit.glsl"
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -36,7 +29,7 @@ void main() {
     vec3 posL = eyeL + dirL * s;
     float r = length(posL);
     bool inCone = push.coneCos <= -1.0f || dot(posL, coneAxisL) >= push.coneCos * r;
-    if (inCone && isLit(map, posL)) sum += scatteredPerMetre(media.medium, posL, dirL, s + r);
+    if (inCone && isMapLit(map, posL)) sum += scatteredPerMetre(media.medium, posL, dirL, s + r);
   }
   scatter(pixel, sum * stepLength * push.intensity);
 }

@@ -8,8 +8,12 @@ layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindVisibility) readonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindMedia) uniform Media { MediaUniforms media; };
 layout(scalar, binding = kBindSurface) buffer Surface { vec3 surfaces[]; };
-layout(scalar, push_constant) uniform Push { MediaPush push; };
+layout(scalar, binding = kBindEyeDepth) readonly buffer EyeDepth { float eyeDepth[]; };
+layout(scalar, push_constant) uniform Push { DensityPush push; };
 
+layout(constant_id = 0) const int kHeterogeneous = 0;
+
+#include "vsv/light_depth_fetch.glsl"
 #include "shadow/surface_radiance.glsl"
 
 void main() {
@@ -22,8 +26,12 @@ void main() {
     SurfaceLight light = shadeSurface(pixel, id, visibility[index]);
     float toEye = min(length(light.position - media.camera.eyeW), media.medium.reach);
     float toLight = length(towardsLight(shade, light.position));
+    if (kHeterogeneous == 1) {
+      toEye = eyeDepth[index];
+      toLight = depthFromLight(push.reach, light.position - push.light.lightW);
+    }
     color = light.albedo * (light.direct * transmittance(media.medium, toLight + toEye) + light.ambient * transmittance(media.medium, toEye));
   }
-  if (push.add == 1) color += surfaces[index];
+  if (push.light.add == 1) color += surfaces[index];
   surfaces[index] = color;
 }

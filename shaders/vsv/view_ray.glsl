@@ -1,4 +1,4 @@
-// A pixel's view ray and where it ends: at the surface, or at the medium's reach.
+// A pixel's view ray and where it ends: at the surface, or at the medium's reach. The including shader declares `push`.
 #ifndef GNOMON_VIEW_RAY_GLSL
 #define GNOMON_VIEW_RAY_GLSL
 
@@ -8,7 +8,6 @@
 
 layout(scalar, binding = kBindMedia) uniform Media { MediaUniforms media; };
 layout(scalar, binding = kBindInScattered) buffer InScattered { vec3 inScattered[]; };
-layout(scalar, push_constant) uniform Push { MediaPush push; };
 
 struct ViewRay {
   vec3 dirW;  // unit

@@ -73,7 +73,11 @@ MediaWorld::MediaWorld(const gpu::Device& device, const MediaSetup& given)
   maps.record(commands, buffers, *cube, light, CullMode::None);
   maps.record(commands, buffers, *paraboloid, light, CullMode::None);
   commands.submitAndWait();
-  pass.setMedium(view, setup.medium);
+  if (!setup.density.empty()) {
+    density = std::make_unique<DensityGrid>(setup.density, DensityPlacement{});
+    densityBuffers = std::make_unique<DensityBuffers>(device, *density);
+  }
+  pass.setMedium(view, setup.medium, densityBuffers.get());
 }
 
 std::vector<glm::vec3> MediaWorld::scattered(const MediaMethod& method, bool ofParaboloid) {
@@ -81,7 +85,7 @@ std::vector<glm::vec3> MediaWorld::scattered(const MediaMethod& method, bool ofP
                                      : ofParaboloid                         ? MediaVisibility(*paraboloid)
                                                                             : MediaVisibility(*cube);
   gpu::Commands commands(device_, "media");
-  pass.recordTable(commands, visibility);
+  pass.recordTable(commands, visibility, setup.light);
   commands.barrier("the running integral is written -> pixels read it");
   pass.record(commands, buffers, gbuffer, visibility, setup.light, method, false);
   commands.submitAndWait();

@@ -21,6 +21,7 @@ struct MediaSetup {
   VolumeFit fit = VolumeFit::Frustum;
   int mapSide = 512;  // of a cube's face
   int pictureSide = 128;
+  std::string density;  // FILE.vdb; empty: homogeneous
 };
 // A generated scene with its first point light and camera.
 MediaSetup mediaSetup(const char* scene);
@@ -42,6 +43,8 @@ class MediaWorld {
   std::vector<glm::dvec3> endsW;  // of the view rays, a pixel each, and the eye
   std::unique_ptr<ShadowVolume> volume;
   std::unique_ptr<MapImage> cube, paraboloid;
+  std::unique_ptr<DensityGrid> density;
+  std::unique_ptr<DensityBuffers> densityBuffers;
   MediaPass pass;
 
  private:

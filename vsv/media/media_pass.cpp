@@ -123,70 +123,118 @@ const gpu::ComputeProgram& MediaPass::program(const char* shader,
   return variants_.back()->program;
 }
 
-void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& medium) {
+void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& medium,
+                          const DensityBuffers* density) {
+  density_ = density;
+  if (density != nullptr && lightDepth_.size() == 0) {
+    constexpr int kFloats = 2 * glsl::kLightDepthRadii * glsl::kLightDepthSide * glsl::kLightDepthSide;
+    lightDepth_ = gpu::Buffer(device_, {.name = "density to the light", .size = kFloats * sizeof(float)});
+    eyeDepth_ = gpu::Buffer(device_, {.name = "density to the eye", .size = inScattered_.size() / 3});
+  }
   gpu::upload(device_, uniforms_, gpu::asPush(glsl::MediaUniforms{.camera = camera, .medium = medium}));
 }
 
-void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visibility) {
-  if (visibility.volume == nullptr) return;
+void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visibility,
+                            const MediaLightSource& light) {
   commands.beginStage("media table");
-  commands.dispatch(program("vsv/tabulate_scattering.comp.glsl", {}),
-                    {groups(glsl::kTableRows, glsl::kTableGroupSize), 1, 1}, {},
-                    {{glsl::kBindMap, visibility.volume->uniforms()},
-                     {glsl::kBindMedia, uniforms_},
-                     {glsl::kBindRunning, running_}});
+  if (density_ != nullptr) {
+    const glsl::DensityPush push{
+        .light = pushFor(light, {}, false),
+        .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
+    const uint32_t side = groups(glsl::kLightDepthSide, glsl::kMediaGroupSide);
+    commands.dispatch(program("vsv/tabulate_light_depth.comp.glsl", {}),
+                      {side, side, static_cast<uint32_t>(push.reach.layers)}, gpu::asPush(push),
+                      {{glsl::kBindDensity, density_->words},
+                       {glsl::kBindDensityPlace, density_->place},
+                       {glsl::kBindLightDepth, lightDepth_}});
+  } else if (visibility.volume != nullptr) {
+    commands.dispatch(program("vsv/tabulate_scattering.comp.glsl", {}),
+                      {groups(glsl::kTableRows, glsl::kTableGroupSize), 1, 1}, {},
+                      {{glsl::kBindMap, visibility.volume->uniforms()},
+                       {glsl::kBindMedia, uniforms_},
+                       {glsl::kBindRunning, running_}});
+  }
   commands.endStage();
 }
 
 void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                        const MediaVisibility& visibility, const MediaLightSource& light,
                        const MediaMethod& method, bool add) {
-  const glsl::MediaPush push = pushFor(light, method, add);
-  const int32_t instanced = scene.instanced ? 1 : 0;
+  const bool marchesMap = method.integrator == Integrator::March;
+  GNOMON_CHECK(marchesMap ? visibility.map != nullptr : visibility.volume != nullptr);
+  GNOMON_CHECK(method.steps > 0 || (!marchesMap && density_ == nullptr));
   std::vector<gpu::Binding> bindings = {
-      {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},
-      {glsl::kBindInstances, scene.instances}, {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
-      {glsl::kBindMedia, uniforms_},           {glsl::kBindInScattered, inScattered_}};
+      {glsl::kBindPositions, scene.positions},
+      {glsl::kBindTriangles, scene.triangles},
+      {glsl::kBindInstances, scene.instances},
+      {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+      {glsl::kBindMedia, uniforms_},
+      {glsl::kBindInScattered, inScattered_},
+      {glsl::kBindMap, marchesMap ? visibility.map->uniforms() : visibility.volume->uniforms()}};
+  const glsl::MediaPush push = pushFor(light, method, add);
+  const gpu::Specialization instanced{.id = 4, .value = scene.instanced ? 1 : 0};
   commands.beginStage("media integrate");
-  if (method.integrator == Integrator::March) {
-    GNOMON_CHECK(visibility.map != nullptr);
-    GNOMON_CHECK_LT(0, method.steps);
-    bindings.insert(bindings.end(), {{glsl::kBindMap, visibility.map->uniforms()},
-                                     {glsl::kBindMapDepth, visibility.map->depth()}});
-    commands.dispatch(program("vsv/march_map.comp.glsl",
-                              {{.id = 0, .value = visibility.map->kind()}, {.id = 4, .value = instanced}}),
-                      groupCount_, gpu::asPush(push), bindings);
-  } else {
-    GNOMON_CHECK(visibility.volume != nullptr);
-    bindings.insert(bindings.end(), {{glsl::kBindMap, visibility.volume->uniforms()},
-                                     {glsl::kBindBits, visibility.volume->bits()},
-                                     {glsl::kBindRunning, running_}});
+  if (density_ != nullptr) {
+    recordDensity(commands, visibility, light, push, instanced, std::move(bindings));
+  } else if (marchesMap) {
+    bindings.emplace_back(glsl::kBindMapDepth, visibility.map->depth());
     commands.dispatch(
-        program("vsv/integrate_bits.comp.glsl",
-                {{.id = 0, .value = bitsIntegrator(method.integrator)}, {.id = 4, .value = instanced}}),
+        program("vsv/march_map.comp.glsl", {{.id = 0, .value = visibility.map->kind()}, instanced}),
         groupCount_, gpu::asPush(push), bindings);
+  } else {
+    bindings.emplace_back(glsl::kBindBits, visibility.volume->bits());
+    bindings.emplace_back(glsl::kBindRunning, running_);
+    commands.dispatch(program("vsv/integrate_bits.comp.glsl",
+                              {{.id = 0, .value = bitsIntegrator(method.integrator)}, instanced}),
+                      groupCount_, gpu::asPush(push), bindings);
   }
   commands.endStage();
 }
 
+// One of the two sources of visibility is bound and not read.
+void MediaPass::recordDensity(gpu::Commands& commands, const MediaVisibility& visibility,
+                              const MediaLightSource& light, const glsl::MediaPush& lightPush,
+                              const gpu::Specialization& instanced, std::vector<gpu::Binding> bindings) {
+  const bool ofMap = visibility.map != nullptr;
+  bindings.emplace_back(glsl::kBindMapDepth,
+                        ofMap ? visibility.map->depth() : visibility.volume->source().depth());
+  bindings.emplace_back(glsl::kBindBits, ofMap ? lightDepth_ : visibility.volume->bits());
+  bindings.emplace_back(glsl::kBindDensity, density_->words);
+  bindings.emplace_back(glsl::kBindDensityPlace, density_->place);
+  bindings.emplace_back(glsl::kBindLightDepth, lightDepth_);
+  bindings.emplace_back(glsl::kBindEyeDepth, eyeDepth_);
+  const glsl::DensityPush push{
+      .light = lightPush, .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
+  const int kind = ofMap ? visibility.map->kind() : glsl::kMapEpipolar;
+  commands.dispatch(program("vsv/march_density.comp.glsl", {{.id = 0, .value = kind}, instanced}),
+                    groupCount_, gpu::asPush(push), bindings);
+}
+
 void MediaPass::recordSurfaces(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                               const gpu::Buffer& shade, const gpu::Buffer& visibility, bool add) {
+                               const MediaLightSource& light, const gpu::Buffer& shade,
+                               const gpu::Buffer& visibility, bool add) {
+  glsl::DensityPush push{.light = pushFor(light, {}, add), .reach = {}};
+  std::vector<gpu::Binding> bindings = {{glsl::kBindPositions, scene.positions},
+                                        {glsl::kBindTriangles, scene.triangles},
+                                        {glsl::kBindInstances, scene.instances},
+                                        {glsl::kBindUvs, scene.uvs},
+                                        {glsl::kBindNormals, scene.normals},
+                                        {glsl::kBindMaterials, scene.materials},
+                                        {glsl::kBindTextures, scene.textures},
+                                        {glsl::kBindTexels, scene.texels},
+                                        {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+                                        {glsl::kBindShade, shade},
+                                        {glsl::kBindVisibility, visibility},
+                                        {glsl::kBindMedia, uniforms_},
+                                        {glsl::kBindSurface, surfaces_}};
+  // Homogeneous: bound and not read.
+  bindings.emplace_back(glsl::kBindLightDepth, density_ != nullptr ? lightDepth_ : inScattered_);
+  bindings.emplace_back(glsl::kBindEyeDepth, density_ != nullptr ? eyeDepth_ : inScattered_);
+  if (density_ != nullptr) push.reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW);
   commands.beginStage("media surfaces");
-  commands.dispatch(program("vsv/shade_surface_in_medium.comp.glsl", {}), groupCount_,
-                    gpu::asPush(glsl::MediaPush{.add = add ? 1 : 0}),
-                    {{glsl::kBindPositions, scene.positions},
-                     {glsl::kBindTriangles, scene.triangles},
-                     {glsl::kBindInstances, scene.instances},
-                     {glsl::kBindUvs, scene.uvs},
-                     {glsl::kBindNormals, scene.normals},
-                     {glsl::kBindMaterials, scene.materials},
-                     {glsl::kBindTextures, scene.textures},
-                     {glsl::kBindTexels, scene.texels},
-                     {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
-                     {glsl::kBindShade, shade},
-                     {glsl::kBindVisibility, visibility},
-                     {glsl::kBindMedia, uniforms_},
-                     {glsl::kBindSurface, surfaces_}});
+  commands.dispatch(
+      program("vsv/shade_surface_in_medium.comp.glsl", {{.id = 0, .value = density_ != nullptr ? 1 : 0}}),
+      groupCount_, gpu::asPush(push), bindings);
   commands.endStage();
 }
 

@@ -3,9 +3,10 @@
 // or by marching through a shadow map. The model is in shaders/shared/medium.glsl.
 
 #include "scene/gbuffer.h"
+#include "vsv/media/density.h"
 #include "vsv/shadow_volume.h"
 
-#include "shared/medium.glsl"
+#include "shared/media_pass.glsl"
 
 #include <string>
 #include <vector>
@@ -57,23 +58,28 @@ class MediaPass {
  public:
   MediaPass(const gpu::Device& device, int width, int height);
 
-  // Of the frames recorded from now on.
-  void setMedium(const glsl::CameraView& camera, const glsl::Medium& medium);
+  // Of the frames recorded from now on. `density`: what makes the medium heterogeneous; it outlives them.
+  void setMedium(const glsl::CameraView& camera, const glsl::Medium& medium,
+                 const DensityBuffers* density = nullptr);
 
-  // The running integral that record() reads with this volume: once a frame and light, before it, and a
-  // barrier between. Nothing to record for a map. Stage "media table".
-  void recordTable(gpu::Commands& commands, const MediaVisibility& visibility);
+  // The table that record() reads: once a frame and light, before it, and a barrier between. Homogeneous: the
+  // running integral in the frame of the volume, nothing for a map. Heterogeneous: the density between the
+  // light and what is about it. Stage "media table".
+  void recordTable(gpu::Commands& commands, const MediaVisibility& visibility, const MediaLightSource& light);
 
-  // Light scattered towards the eye; `add`: to what other lights scattered. Stage "media integrate".
+  // Light scattered towards the eye. In a heterogeneous medium every integrator marches, and the visibility
+  // says whether through bits or a map. `add`: to what other lights scattered. Stage "media integrate".
   // Several lights: recordTable, barrier, record, barrier, recordTable of the next.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
               const MediaVisibility& visibility, const MediaLightSource& light, const MediaMethod& method,
               bool add);
 
-  // The surfaces' own light, attenuated from the light and to the eye. `shade` and `visibility`: a
+  // The surfaces' own light, attenuated from the light and to the eye; in a heterogeneous medium after
+  // record() of the same light, whose table and depths to the eye it reads. `shade` and `visibility`: a
   // VisibilityPass's of the same camera, with lightColor the intensity over pi. Stage "media surfaces".
   void recordSurfaces(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                      const gpu::Buffer& shade, const gpu::Buffer& visibility, bool add);
+                      const MediaLightSource& light, const gpu::Buffer& shade, const gpu::Buffer& visibility,
+                      bool add);
 
   // Surfaces and scattered light: radiance(). After a barrier behind both.
   void recordSum(gpu::Commands& commands);
@@ -90,11 +96,16 @@ class MediaPass {
     gpu::ComputeProgram program;
   };
   const gpu::ComputeProgram& program(const char* shader, const std::vector<gpu::Specialization>& constants);
+  void recordDensity(gpu::Commands& commands, const MediaVisibility& visibility,
+                     const MediaLightSource& light, const glsl::MediaPush& push,
+                     const gpu::Specialization& instanced, std::vector<gpu::Binding> bindings);
 
   const gpu::Device& device_;
   glm::uvec3 groupCount_;
+  const DensityBuffers* density_ = nullptr;
   gpu::Buffer uniforms_;
   gpu::Image running_;
+  gpu::Buffer lightDepth_, eyeDepth_;  // made at the first density
   gpu::Buffer inScattered_, surfaces_, radiance_;
   std::vector<std::unique_ptr<Variant>> variants_;  // compiled at first use
 };
