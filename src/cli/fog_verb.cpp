@@ -35,6 +35,8 @@ struct FogFlags {
   double g = 0.2;
   std::optional<double> reach;
   double ambient = 0.0;
+  std::string density, densityAt;
+  std::optional<double> densityScale;
   int repeats = 5;
   int frames = 0;
   std::string move;
@@ -103,6 +105,19 @@ bool isPicture(const std::string& out) {
   return extension == ".exr" || extension == ".png";
 }
 
+std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags) {
+  if (flags.density.empty()) {
+    if (!flags.densityAt.empty() || flags.densityScale)
+      throw UsageError("--density-at and --density-scale need a --density");
+    return nullptr;
+  }
+  DensityPlacement placement{.scale = flags.densityScale.value_or(1.0)};
+  if (!(placement.scale >= 1e-6 && placement.scale <= 1e6))
+    throw UsageError(fmt::format("--density-scale {}: a factor of size, 1e-6..1e6", placement.scale));
+  if (!flags.densityAt.empty()) placement.centerW = glm::dvec3(parseVec3("--density-at", flags.densityAt));
+  return std::make_shared<const DensityGrid>(flags.density, placement);
+}
+
 FogMedium fogMedium(const FogFlags& flags) {
   FogMedium medium{.sigmaA = parseSpectrum("--sigma-a", flags.sigmaA), .reach = flags.reach};
   if (!flags.sigmaS.empty()) medium.sigmaS = parseSpectrum("--sigma-s", flags.sigmaS);
@@ -114,6 +129,7 @@ FogMedium fogMedium(const FogFlags& flags) {
   if (!(flags.ambient >= 0.0 && flags.ambient < 1e9))
     throw UsageError(fmt::format("--ambient {}: cd/m^2, 0 or more and less than 1e9", flags.ambient));
   medium.ambient = static_cast<float>(flags.ambient);
+  medium.density = densityOf(flags);
   return medium;
 }
 
@@ -195,6 +211,13 @@ void addMediumFlags(CLI::App& verb, FogFlags& flags) {
       "--reach", flags.reach,
       "metres from the eye at which view rays end that meet no surface before; default: the farthest "
       "corner of the scene's bounds");
+  verb.add_option(
+      "--density", flags.density,
+      "FILE.vdb[:grid], a float grid: what sigma_s and sigma_a are multiplied by (`gnomon scene --density` "
+      "makes some); default: none, a homogeneous medium");
+  verb.add_option("--density-at", flags.densityAt,
+                  "x,y,z: where the density's centre goes, metres; default: where the file has it");
+  verb.add_option("--density-scale", flags.densityScale, "factor of the density's size; default: 1");
   verb.add_option("--ambient", flags.ambient, "cd/m^2 that a white surface shows without any light")
       ->capture_default_str();
 }
@@ -220,7 +243,9 @@ Run addFogVerb(CLI::App& app) {
       "--integrators", flags->integrators,
       "of runs, bits, popcount (of a shadow volume) and march (through a map); default: all, and runs "
       "alone where only a picture is asked for");
-  verb->add_option("--steps", flags->steps, "samples a view ray of a march")->capture_default_str();
+  verb->add_option("--steps", flags->steps,
+                   "samples a view ray of a march; in a density, of every way to integrate")
+      ->capture_default_str();
   verb->add_option("--march-map", flags->marchMap, "what a march looks shadows up in: cube or paraboloid")
       ->capture_default_str();
   addMediumFlags(*verb, *flags);

@@ -15,13 +15,16 @@ namespace gnomon {
 
 namespace {
 
+// In a density every integrator marches, and those of a volume differ in nothing: they are one, `bits`.
 std::vector<MediaMethod> methodsOf(const FogOptions& options) {
   std::vector<MediaMethod> methods;
-  for (const Integrator integrator : options.integrators) {
-    if (integrator != Integrator::March)
-      methods.push_back({.integrator = integrator});
-    else
-      for (const int steps : options.steps) methods.push_back({.integrator = integrator, .steps = steps});
+  for (Integrator integrator : options.integrators) {
+    const bool marches = integrator == Integrator::March || options.medium.density != nullptr;
+    if (integrator != Integrator::March && marches) integrator = Integrator::Bits;
+    for (const int steps : marches ? options.steps : std::vector{0}) {
+      const auto same = [&](const MediaMethod& m) { return m.integrator == integrator && m.steps == steps; };
+      if (std::ranges::none_of(methods, same)) methods.push_back({.integrator = integrator, .steps = steps});
+    }
   }
   return methods;
 }

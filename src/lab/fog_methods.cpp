@@ -67,11 +67,11 @@ struct PassTimes {
 };
 
 PassTimes integrate(const Session& session, MediaPass& pass, const MediaVisibility& visibility,
-                    const MediaLightSource& light, const MediaMethod& method) {
+                    const MediaLightSource& light, const MediaMethod& method, bool heterogeneous) {
   PassTimes times;
-  if (visibility.volume != nullptr) {
+  if (visibility.volume != nullptr || heterogeneous) {
     gpu::Commands commands(session.device(), "media table");
-    pass.recordTable(commands, visibility);
+    pass.recordTable(commands, visibility, light);
     times.table = commands.submitAndWait().wallMs;
   }
   gpu::Commands commands(session.device(), "media integrate");
@@ -86,7 +86,7 @@ struct Samples {
 
 // Rounds run one after another through all methods, so that a machine that slows down slows all of them.
 void timeMethods(const Session& session, MediaPass& pass, const LightMaps& maps,
-                 const MediaLightSource& light, const FogMethodOptions& options,
+                 const MediaLightSource& light, bool heterogeneous, const FogMethodOptions& options,
                  std::vector<FogMethodResult>& results) {
   std::vector<Samples> samples(options.methods.size());
   for (int round = 0; round < options.repeats; ++round) {
@@ -95,7 +95,7 @@ void timeMethods(const Session& session, MediaPass& pass, const LightMaps& maps,
       const MediaMethod& method = options.methods[i];
       std::optional<double>& drawn = mapMs[marchesMap(method) ? 1 : 0];
       if (!drawn) drawn = maps.redraw(method);
-      const PassTimes times = integrate(session, pass, maps.of(method), light, method);
+      const PassTimes times = integrate(session, pass, maps.of(method), light, method, heterogeneous);
       samples[i].map.push_back(*drawn);
       samples[i].table.push_back(times.table);
       samples[i].integrate.push_back(times.integrate);
@@ -114,18 +114,20 @@ std::vector<FogMethodResult> runFogMethods(const Session& session, const Rendere
                                            const FogView& view, const FogMethodOptions& options) {
   const int width = session.view().width, height = session.view().height;
   MediaPass pass(session.device(), width, height);
-  pass.setMedium(session.view(), view.medium);
+  pass.setMedium(session.view(), view.medium, view.densityBuffers.get());
+  const bool heterogeneous = view.densityBuffers != nullptr;
   std::vector<FogMethodResult> results(options.methods.size());
   for (FogMethodResult& result : results) result.inScattered = ImageF(width, height, 3);
   for (size_t l = 0; l < view.lights.size(); ++l) {
     const LightMaps maps(session, renderers, view, view.lights[l], options);
     for (size_t i = 0; i < results.size(); ++i) {  // pipelines compile here, before anything is timed
-      integrate(session, pass, maps.of(options.methods[i]), view.sources[l], options.methods[i]);
+      integrate(session, pass, maps.of(options.methods[i]), view.sources[l], options.methods[i],
+                heterogeneous);
       const auto scattered = gpu::downloadAs<float>(session.device(), pass.inScattered());
       std::ranges::transform(results[i].inScattered.values, scattered, results[i].inScattered.values.begin(),
                              std::plus<float>());
     }
-    timeMethods(session, pass, maps, view.sources[l], options, results);
+    timeMethods(session, pass, maps, view.sources[l], heterogeneous, options, results);
   }
   return results;
 }

@@ -138,6 +138,10 @@ gpu::Hash128 referenceKey(const Session& session, const FogView& view, const Med
   append(bytes, view.model.sigmaS);
   append(bytes, view.model.sigmaA);
   append(bytes, view.model.g);
+  if (view.density) {
+    appendHash(bytes, view.density->nanoVdb());
+    append(bytes, view.density->place());
+  }
   append(bytes, options.bound);
   append(bytes, options.firstSamples);
   append(bytes, options.mostDoublings);

@@ -52,8 +52,8 @@ std::string shareText(const std::optional<double>& share) {
 std::string termsText(const FogResult& result) {
   if (result.equalTerms.empty()) return "";
   std::string text = fmt::format("{:<35}{:>26}{:>30}\n{:<35}{:>14}{:>12}{:>16}{:>12}\n", "against march",
-                                 "times faster at equal error", "times less error at equal time", "", "rel rmse",
-                                 "rmse 99%", "rel rmse", "rmse 99%");
+                                 "times faster at equal error", "times less error at equal time", "",
+                                 "rel rmse", "rmse 99%", "rel rmse", "rmse 99%");
   const auto find = [&](size_t row, bool withBuild, ErrorMeasure measure, bool faster) -> std::string {
     for (const EqualTerms& terms : result.equalTerms)
       if (terms.row == row && terms.withBuild == withBuild && terms.measure == measure)
@@ -99,10 +99,18 @@ Json lightJson(const Light& light, const MediaLightSource& source) {
 }
 
 Json mediumJson(const FogView& view) {
+  Json density = nullptr;
+  if (view.density)
+    density = {{"grid", view.density->gridName()},
+               {"lower", vectorJson(view.density->boundsW().lower)},
+               {"upper", vectorJson(view.density->boundsW().upper)},
+               {"voxel_metres", shortest(static_cast<float>(view.density->voxelMetres()))},
+               {"voxels", view.density->activeVoxels()}};
   return {{"sigma_s", vectorJson(view.medium.sigmaS)},
           {"sigma_a", vectorJson(view.medium.sigmaA)},
           {"g", shortest(view.medium.g)},
-          {"reach", shortest(view.medium.reach)}};
+          {"reach", shortest(view.medium.reach)},
+          {"density", density}};
 }
 
 Json referenceJson(const FogResult& result) {
@@ -172,6 +180,13 @@ std::string fogTable(const Session& session, const FogOptions&, const FogResult&
       "light {}; medium: sigma_s {} and sigma_a {} per metre, g {:.3g}, view rays end at {:.4g} m\n",
       lightsText(view), spectrumText(view.medium.sigmaS), spectrumText(view.medium.sigmaA), view.medium.g,
       view.medium.reach);
+  if (view.density)
+    text += fmt::format(
+        "density: grid '{}', {} voxels of {:.4g} m, from {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g}; "
+        "runs, bits and popcount are one there, which marches\n",
+        view.density->gridName(), view.density->activeVoxels(), view.density->voxelMetres(),
+        view.density->boundsW().lower.x, view.density->boundsW().lower.y, view.density->boundsW().lower.z,
+        view.density->boundsW().upper.x, view.density->boundsW().upper.y, view.density->boundsW().upper.z);
   if (result.reference) text += fmt::format("reference: {}\n", referenceText(result));
   const bool flickers =
       std::ranges::any_of(result.rows, [](const MediaRow& row) { return row.flicker.has_value(); });

@@ -4,6 +4,7 @@
 
 #include "lab/session.h"
 #include "truth/media_reference.h"
+#include "vsv/media/density.h"
 #include "vsv/media/media_pass.h"
 
 #include <optional>
@@ -16,11 +17,12 @@ struct FogMedium {
       sigmaS;              // 1/m; absent: grey, so that the scene's diagonal is half an optical depth
   glm::vec3 sigmaA{0.0f};  // 1/m
   float g = 0.2f;
-  std::optional<double> reach;  // metres; absent: to the farthest corner of the scene's bounds
-  float ambient = 0.0f;         // cd/m^2 that a white surface reflects besides
+  std::optional<double> reach;                 // metres; absent: to the farthest corner of the scene's bounds
+  float ambient = 0.0f;                        // cd/m^2 that a white surface reflects besides
+  std::shared_ptr<const DensityGrid> density;  // none: homogeneous
 };
 
-// The default's optical depth across the scene's diagonal.
+// The default's optical depth.
 inline constexpr double kDefaultOpticalDepth = 0.5;
 
 struct FogView {
@@ -29,6 +31,8 @@ struct FogView {
   std::vector<MediaLight> exactLights;    // the same
   glsl::Medium medium{};
   MediumModel model;
+  std::shared_ptr<const DensityGrid> density;  // that model.density points to
+  std::shared_ptr<const DensityBuffers> densityBuffers;
   std::vector<double> ends;            // metres along each pixel's ray
   std::vector<glm::dvec3> receiversW;  // what volumes and maps are fitted to
   ImageF surface;                      // rgb, cd/m^2: attenuated along both legs
