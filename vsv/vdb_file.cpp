@@ -1,12 +1,11 @@
 #include "vsv/vdb_file.h"
 
 #include "base/error.h"
-#include "base/file.h"
+#include "vsv/vdb_archive.h"
 #include "vsv/volume_grid_impl.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <vector>
 
@@ -123,26 +122,6 @@ openvdb::MetaMap notes(const glsl::EpipolarGrid& grid, const VdbOptions& options
   return meta;
 }
 
-// OpenVDB's own File writes to a stream whose failures it does not look at, so that a full disk would go
-// unseen.
-class CheckedArchive : public openvdb::io::Archive {
- public:
-  void writeTo(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
-               const openvdb::MetaMap& meta) const {
-    std::ofstream out(path, std::ios::binary);
-    if (out) Archive::write(out, grids, /*seekable=*/true, meta);
-    out.close();
-    if (!out) throw openvdb::IoError("check that the folder exists and has room");
-  }
-};
-
-// OpenVDB puts the exception's name before the text.
-std::string messageOf(const openvdb::Exception& error) {
-  const std::string text = error.what();
-  const size_t colon = text.find(": ");
-  return colon == std::string::npos ? text : text.substr(colon + 2);
-}
-
 double sizeOf(const Bounds& boundsW, double voxel) {
   double count = 1.0;
   for (int axis = 0; axis < 3; ++axis)
@@ -186,24 +165,17 @@ VdbSummary writeVdb(const std::filesystem::path& path, const VolumeGrid& mask, c
     throw UsageError(fmt::format("--vdb-voxel {}: {:.3g} voxels in the scene's bounds; take {:.3g} or more",
                                  voxel, count, voxel * std::cbrt(count / kMostDensityVoxels) * 1.01));
   VdbSummary summary{.voxelMetres = voxel};
-  try {
-    const openvdb::FloatGrid::Ptr density =
-        densityGrid(volume, options.frame, boxOf(options.boundsW, voxel), voxel);
-    summary.densityVoxels = density->activeVoxelCount();
-    const openvdb::MetaMap meta = notes(volume.grid, options);
-    const openvdb::MaskGrid::Ptr epipolar = mask.impl().grid->copy();  // shares the tree, not the metadata
-    for (auto it = meta.beginMeta(); it != meta.endMeta(); ++it) {
-      density->insertMeta(it->first, *it->second);
-      epipolar->insertMeta(it->first, *it->second);
-    }
-    const openvdb::GridCPtrVec grids = {density, epipolar};
-    writeAtomically(path, [&](const std::filesystem::path& aside) {
-      CheckedArchive().writeTo(aside, grids, meta);
-      summary.fileBytes = std::filesystem::file_size(aside);
-    });
-  } catch (const openvdb::Exception& error) {
-    throw fileError(path.string(), "cannot be written", messageOf(error));
+  const openvdb::FloatGrid::Ptr density =
+      densityGrid(volume, options.frame, boxOf(options.boundsW, voxel), voxel);
+  summary.densityVoxels = density->activeVoxelCount();
+  const openvdb::MetaMap meta = notes(volume.grid, options);
+  const openvdb::MaskGrid::Ptr epipolar = mask.impl().grid->copy();  // shares the tree, not the metadata
+  for (auto it = meta.beginMeta(); it != meta.endMeta(); ++it) {
+    density->insertMeta(it->first, *it->second);
+    epipolar->insertMeta(it->first, *it->second);
   }
+  writeGrids(path, {density, epipolar}, meta);
+  summary.fileBytes = std::filesystem::file_size(path);
   return summary;
 }
 

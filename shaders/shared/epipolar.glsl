@@ -76,6 +76,8 @@ GNOMON_FN float epipolarAlphaSlope(float eyeDistance, vec3 dir, float r) {
 
 GNOMON_FN float alphaUpper(EpipolarGrid grid) { return grid.alphaLower + float(grid.alphaCount) * grid.alphaStep; }
 
+GNOMON_FN float phiUpper(EpipolarGrid grid) { return grid.phiLower + float(grid.phiCount) * grid.phiStep; }
+
 GNOMON_FN float alphaCenter(EpipolarGrid grid, int i) { return grid.alphaLower + (float(i) + 0.5f) * grid.alphaStep; }
 
 // Whether the columns go all the way round, so that the first stands beside the last.

@@ -30,7 +30,8 @@ int parseAndRun(int argc, char** argv) {
   app.option_defaults()->always_capture_default(false);
   std::vector<std::pair<const char*, Run>> verbs = {
       {"compare", addCompareVerb(app)}, {"render", addRenderVerb(app)}, {"report", addReportVerb(app)},
-      {"vsv", addVsvVerb(app)},         {"bench", addBenchVerb(app)},   {"scene", addSceneVerb(app)},
+      {"fog", addFogVerb(app)},         {"vsv", addVsvVerb(app)},       {"scene", addSceneVerb(app)},
+      {"bench", addBenchVerb(app)},
       {"info", addInfoVerb(app)}};
   try {
     app.parse(argc, argv);

@@ -2,6 +2,7 @@
 #include "cli/verbs.h"
 #include "scene/generate.h"
 #include "scene/gltf.h"
+#include "vsv/media/generate_density.h"
 
 #include <cstdio>
 #include <memory>
@@ -16,33 +17,69 @@ namespace {
 struct SceneVerbFlags {
   std::string name;
   std::string out;
+  std::string density;
+  std::string densityFor = "grate";
+  uint32_t seed = 1;
 };
 
 int listScenes() {
   for (const GeneratedScene& scene : generatedScenes()) std::printf("%-14s %s\n", scene.name, scene.provokes);
+  std::printf("\ndensities, with --density NAME:\n");
+  for (const GeneratedDensity& density : generatedDensities())
+    std::printf("%-14s %s\n", density.name, density.sentence);
+  return 0;
+}
+
+// Where to write, which must end in `extension`.
+std::filesystem::path outputOf(const SceneVerbFlags& flags, const char* what, const char* extension) {
+  if (flags.out.empty())
+    throw UsageError(fmt::format("{}: say where to write it, with -o FILE{}", what, extension));
+  if (std::filesystem::path(flags.out).extension() != extension)
+    throw UsageError(fmt::format("-o {}: write a {}", flags.out, extension));
+  return flags.out;
+}
+
+int writeScene(const SceneVerbFlags& flags) {
+  const std::filesystem::path out = outputOf(flags, fmt::format("scene {}", flags.name).c_str(), ".glb");
+  const Scene scene = openScene(flags.name);
+  saveGlb(scene, out);
+  std::printf("wrote %s: %llu triangles\n", flags.out.c_str(),
+              static_cast<unsigned long long>(triangleCount(scene)));
+  return 0;
+}
+
+int writeDensity(const SceneVerbFlags& flags) {
+  if (!flags.name.empty())
+    throw UsageError(
+        fmt::format("--density {}: name the scene that it is for with --for {}", flags.density, flags.name));
+  const std::filesystem::path out =
+      outputOf(flags, fmt::format("--density {}", flags.density).c_str(), ".vdb");
+  const Bounds boundsW = computeBounds(openScene(flags.densityFor));
+  const DensitySummary summary = writeGeneratedDensity(flags.density, boundsW, flags.seed, out);
+  std::printf("wrote %s: %llu voxels of %.3g m\n", flags.out.c_str(),
+              static_cast<unsigned long long>(summary.voxels), summary.voxelMetres);
   return 0;
 }
 
 int runScene(const SceneVerbFlags& flags) {
-  if (flags.name.empty()) return listScenes();
-  if (flags.out.empty())
-    throw UsageError(fmt::format("scene {}: say where to write it, with -o FILE.glb", flags.name));
-  if (std::filesystem::path(flags.out).extension() != ".glb")
-    throw UsageError(fmt::format("-o {}: write a .glb", flags.out));
-  const Scene scene = openScene(flags.name);
-  saveGlb(scene, flags.out);
-  std::printf("wrote %s: %llu triangles\n", flags.out.c_str(),
-              static_cast<unsigned long long>(triangleCount(scene)));
-  return 0;
+  if (!flags.density.empty()) return writeDensity(flags);
+  return flags.name.empty() ? listScenes() : writeScene(flags);
 }
 
 }  // namespace
 
 Run addSceneVerb(CLI::App& app) {
   auto flags = std::make_shared<SceneVerbFlags>();
-  CLI::App* verb = app.add_subcommand("scene", "write a generated scene as glTF; without a name, list them");
+  CLI::App* verb = app.add_subcommand(
+      "scene", "write a generated scene as glTF, or a density as OpenVDB; without a name, list them");
   verb->add_option("NAME", flags->name, "a generated scene, `crowd:N` for about N triangles");
-  verb->add_option("-o,--out", flags->out, "FILE.glb");
+  verb->add_option("-o,--out", flags->out, "FILE.glb, or FILE.vdb of a density");
+  CLI::Option* density =
+      verb->add_option("--density", flags->density, "a generated density instead of a scene");
+  verb->add_option("--for", flags->densityFor, "scene whose bounds the density fills: a name or a glTF file")
+      ->capture_default_str()
+      ->needs(density);
+  verb->add_option("--seed", flags->seed, "of noise")->capture_default_str()->needs(density);
   return [flags] { return runScene(*flags); };
 }
 

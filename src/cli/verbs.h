@@ -20,6 +20,7 @@ Run addCompareVerb(CLI::App& app);
 Run addRenderVerb(CLI::App& app);
 Run addReportVerb(CLI::App& app);
 Run addVsvVerb(CLI::App& app);
+Run addFogVerb(CLI::App& app);
 Run addSceneVerb(CLI::App& app);
 Run addInfoVerb(CLI::App& app);
 Run addBenchVerb(CLI::App& app);

@@ -38,6 +38,9 @@ constexpr const char* kPreamble =
 // glslang reports follow-up errors by the dozen; the first ones name the cause.
 constexpr size_t kMessageCount = 3;
 
+// What shaders include of the system's headers stands beside the built-in shaders only.
+constexpr std::string_view kSystemFolder = "nanovdb/";
+
 std::mutex shaderDirectoryMutex;
 fs::path shaderDirectory;  // empty: the embedded sources
 
@@ -72,8 +75,8 @@ std::optional<std::string> findSource(const ShaderSource& source, const std::str
   if (const auto found = source.overrides.find(path); found != source.overrides.end()) return found->second;
   if (const fs::path folder = currentShaderDirectory(); !folder.empty()) {
     std::error_code failure;
-    if (!fs::is_regular_file(folder / path, failure)) return std::nullopt;
-    return readFile(folder / path);
+    if (fs::is_regular_file(folder / path, failure)) return readFile(folder / path);
+    if (!path.starts_with(kSystemFolder)) return std::nullopt;
   }
   for (size_t i = 0; i < kEmbeddedShaderCount; ++i)
     if (path == kEmbeddedShaders[i].path) return kEmbeddedShaders[i].text;

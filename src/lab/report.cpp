@@ -1,10 +1,12 @@
 #include "lab/report.h"
 
 #include "base/check.h"
+#include "lab/media_page.h"
 #include "lab/report_data.h"
 #include "lab/report_page.h"
 #include "lab/report_plot.h"
 #include "lab/report_rows.h"
+#include "lab/report_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,10 +19,6 @@ namespace gnomon {
 namespace {
 
 constexpr int kMarkShapes = 6;  // mark-0 .. mark-5 of the page
-
-std::string coordinate(double value) {
-  return fmt::format("{:.1f}", value);
-}
 
 double unsure(const ReportTruth& truth) {
   if (truth.scored == 0) return 0.0;
@@ -71,18 +69,7 @@ View truthViews(const ReportData& data) {
 }
 
 void setHead(View& page, const ReportData& data) {
-  page.set("version", data.version);
-  page.set("sceneName", data.sceneName.empty() ? "Unnamed scene" : data.sceneName);
-  page.set("triangles", grouped(data.triangles));
-  page.set("sceneScale", shortNumber(data.sceneScale));
-  std::string eye;
-  for (const double x : data.cameraEye) eye += (eye.empty() ? "" : ", ") + shortNumber(x);
-  page.set("camera", fmt::format("{} at {} m, {:.4g}° high", data.cameraName, eye, data.fovDegrees));
-  page.set("width", std::to_string(data.width));
-  page.set("height", std::to_string(data.height));
-  page.set("device", data.device);
-  page.set("driver", data.driver.empty() ? View(false) : View(data.driver));
-  page.set("command", data.command.empty() ? View(false) : View(data.command));
+  setFacts(page, data);
   page.set("gbufferMs", fmt::format("{:.2f}", data.gbufferMs));
   page.set("rowCount", fmt::format("{} {}", data.rows.size(), data.rows.size() == 1 ? "method" : "methods"));
   double worst = 0.0;
@@ -95,13 +82,6 @@ void setHead(View& page, const ReportData& data) {
   page.set("hasUncovered", any([](const ReportRow& row) { return row.uncovered != 0; }));
   page.set("hasRmse", any([](const ReportRow& row) { return row.rmse.has_value(); }));
   page.set("hasFlip", any([](const ReportRow& row) { return row.flip.has_value(); }));
-}
-
-std::string idOf(const ReportPictures& pictures, const char* kind, ReportPictureShelf& shelf) {
-  const auto found = std::ranges::find(pictures, kind, &ReportPictures::value_type::first);
-  if (found == pictures.end()) return "";
-  const std::optional<EmbeddedPicture> picture = shelf.embed(found->second, isShaded(kind));
-  return picture ? picture->id : "";
 }
 
 // What a row is held against: the truth through the row's own filter, else the truth.
@@ -169,34 +149,14 @@ View shapeViews(const std::vector<std::string>& names) {
   return list;
 }
 
-View tickView(const PlotTick& tick, double tickEnd, double labelY) {
-  View view;
-  view.set("at", coordinate(tick.at));
-  view.set("text", tick.text);
-  view.set("tickEnd", coordinate(tickEnd));
-  view.set("labelY", coordinate(labelY));
-  return view;
-}
-
-void setAxes(View& view, const Plot& plot, double gbufferMs) {
-  View errors = viewList();
-  for (const PlotTick& tick : plot.errorTicks) errors.push_back(tickView(tick, 0.0, 0.0));
-  View costs = viewList();
-  for (const PlotTick& tick : plot.costTicks)
-    costs.push_back(tickView(tick, plot.bottom + 5.0, plot.bottom + 18.0));
+void setFrameTicks(View& view, const Plot& plot, double gbufferMs) {
   // The frame's cost is the same axis, moved by what every row's frame has besides.
   View frames = viewList();
   const int count = static_cast<int>(plot.costTicks.size());
   for (const double ms : roundSteps(plot.costFrom + gbufferMs, plot.costTo + gbufferMs, std::max(count, 2)))
     frames.push_back(
         tickView({plot.xOfCost(ms - gbufferMs), fmt::format("{:g}", ms)}, plot.top - 5.0, plot.top - 9.0));
-  view.set("errorTicks", errors);
-  view.set("costTicks", costs);
   view.set("frameTicks", frames);
-  View zero;
-  zero.set("at", coordinate(plot.zeroAt));
-  zero.set("breakAt", coordinate(plot.zeroAt - 11.0));
-  view.set("zero", plot.hasZero ? zero : View(false));
 }
 
 View markView(const ReportData& data, size_t index, const PlotItem& item, const PlotMark& mark,
@@ -225,17 +185,8 @@ View plotView(const ReportData& data, const char* size, double width, double hei
   const Plot plot = layOutPlot(items, width, height);
   const std::vector<std::string> shapes = shapeNames(data);
   View view;
-  view.set("size", size);
-  view.set("width", coordinate(plot.width));
-  view.set("height", coordinate(plot.height));
-  view.set("left", coordinate(plot.left));
-  view.set("right", coordinate(plot.right));
-  view.set("top", coordinate(plot.top));
-  view.set("bottom", coordinate(plot.bottom));
-  view.set("tickX", coordinate(plot.left - 7.0));
-  view.set("costTitleY", coordinate(plot.height - 8.0));
-  view.set("errorTitleX", "8");
-  setAxes(view, plot, data.gbufferMs);
+  setPlotFrame(view, plot, size);
+  setFrameTicks(view, plot, data.gbufferMs);
   View front;
   front.set("path", plot.frontPath);
   view.set("front", plot.frontPath.empty() ? View(false) : front);
@@ -272,26 +223,11 @@ void setRows(View& page, const ReportData& data, ReportPictureShelf& shelf) {
   page.set("best", best);
 }
 
-void setMissing(View& page, const ReportPictureShelf& shelf) {
-  if (shelf.missing().empty()) {
-    page.set("missing", false);
-    return;
-  }
-  constexpr size_t kShown = 6;
-  const std::vector<std::string>& paths = shelf.missing();
-  std::string list =
-      fmt::format("{}", fmt::join(paths.begin(), paths.begin() + std::min(kShown, paths.size()), ", "));
-  if (paths.size() > kShown) list += fmt::format(" and {} more", paths.size() - kShown);
-  View missing;
-  missing.set("count", paths.size() == 1 ? "One picture" : fmt::format("{} pictures", paths.size()));
-  missing.set("list", list);
-  page.set("missing", missing);
-}
-
 }  // namespace
 
 std::string reportHtml(const std::filesystem::path& folder) {
   const ReportData data = readReportData(folder);
+  if (data.media) return mediaHtml(folder, data);
   ReportPictureShelf shelf(folder);
   View page;
   page.set("css", kReportPageCss);

@@ -1,9 +1,10 @@
 #pragma once
-// What a report is made of: results.json as docs/results.md has it, read back and checked. Schema 2; of
-// schema 1, which had fewer fields, what there is.
+// What a report is made of: results.json as docs/results.md has it, read back and checked. Schema 3; of
+// those before, which had fewer fields, what there is.
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -68,6 +69,8 @@ struct ReportTruth {
   double margin = 0.0;  // metres
 };
 
+struct MediaData;  // media_data.h
+
 struct ReportData {
   std::string version, device, driver, command;
   std::string sceneName, sceneSource;
@@ -80,7 +83,8 @@ struct ReportData {
   double gbufferMs = 0.0;
   std::vector<ReportTruth> truths;
   std::vector<ReportMap> maps;
-  std::vector<ReportRow> rows;  // best first: by bias error, then by all wrong pixels
+  std::vector<ReportRow> rows;             // best first: by bias error, then by all wrong pixels
+  std::shared_ptr<const MediaData> media;  // what gnomon fog wrote; else none
 };
 
 // Reads folder/results.json. Throws WorldError that names the file, and the field where one is wrong.

@@ -74,6 +74,14 @@ void fitCostAxis(const std::vector<PlotItem>& items, Plot& plot) {
     const auto [low, high] = std::ranges::minmax(items, {}, &PlotItem::costMs);
     least = low.costMs;
     most = high.costMs;
+  } else if (plot.costAxis == CostAxis::Logarithmic) {
+    least = 0.1;
+  }
+  if (plot.costAxis == CostAxis::Logarithmic) {
+    const double stretch = std::max(std::pow(most / least, 0.08), 1.1);
+    plot.costFrom = least / stretch;
+    plot.costTo = most * stretch * stretch;
+    return;
   }
   const double margin = std::max({0.08 * (most - least), 0.02 * most, 1e-3});
   plot.costFrom = std::max(0.0, least - margin);
@@ -149,16 +157,40 @@ std::vector<double> roundSteps(double from, double to, int count) {
   return steps;
 }
 
-Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height) {
+std::vector<double> decadeSteps(double from, double to, size_t most) {
+  for (const bool all : {true, false}) {
+    std::vector<double> steps;
+    for (int power = static_cast<int>(std::floor(std::log10(from))); std::pow(10.0, power) <= to; ++power)
+      for (const double factor : {1.0, 2.0, 5.0}) {
+        const double step = factor * std::pow(10.0, power);
+        if (step >= from && step <= to && (all || factor == 1.0)) steps.push_back(step);
+      }
+    if (!all || steps.size() <= most) return steps;
+  }
+  return {};
+}
+
+double Plot::xOfCost(double costMs) const {
+  const double share = costAxis == CostAxis::Logarithmic
+                           ? std::log(costMs / costFrom) / std::log(costTo / costFrom)
+                           : (costMs - costFrom) / (costTo - costFrom);
+  return left + share * (right - left);
+}
+
+Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height, CostAxis costAxis) {
   Plot plot{.width = width,
             .height = height,
             .left = 62.0,
             .right = width - 14.0,
             .top = 44.0,
             .bottom = height - 44.0,
-            .hasZero = std::ranges::any_of(items, [](const PlotItem& item) { return item.error <= 0.0; })};
+            .hasZero = std::ranges::any_of(items, [](const PlotItem& item) { return item.error <= 0.0; }),
+            .costAxis = costAxis};
   fitCostAxis(items, plot);
-  for (const double ms : roundSteps(plot.costFrom, plot.costTo, width < 500.0 ? 4 : 7))
+  const bool narrow = width < 500.0;
+  for (const double ms : costAxis == CostAxis::Logarithmic
+                             ? decadeSteps(plot.costFrom, plot.costTo, narrow ? 5 : 10)
+                             : roundSteps(plot.costFrom, plot.costTo, narrow ? 4 : 7))
     plot.costTicks.push_back({plot.xOfCost(ms), fmt::format("{:g}", ms)});
   const ErrorAxis axis = errorAxis(items, plot);
   plot.errorTicks = errorTicks(axis);

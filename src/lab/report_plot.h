@@ -1,6 +1,6 @@
 #pragma once
-// Where the marks of the report's plot stand: cost to the right (linear), bias error upwards (logarithmic,
-// with a strip of its own for 0 below). In the units of an SVG's viewBox, y down.
+// Where the marks of the report's plot stand: cost to the right (linear or logarithmic), error upwards
+// (logarithmic, with a strip of its own for 0 below). In the units of an SVG's viewBox, y down.
 //
 //   10% -|        o none
 //        |
@@ -33,6 +33,8 @@ struct PlotTick {
   std::string text;
 };
 
+enum class CostAxis { Linear, Logarithmic };
+
 struct Plot {
   double width = 0.0, height = 0.0;
   double left = 0.0, right = 0.0, top = 0.0, bottom = 0.0;  // of the frame
@@ -41,15 +43,20 @@ struct Plot {
   bool hasZero = false;
   std::vector<PlotMark> marks;  // as the items
   std::string frontPath;        // SVG path through the front, cheapest first; empty for fewer than two
-  double xOfCost(double costMs) const {
-    return left + (costMs - costFrom) / (costTo - costFrom) * (right - left);
-  }
+  double xOfCost(double costMs) const;
   double costFrom = 0.0, costTo = 1.0;  // ms at the frame's sides
+  CostAxis costAxis = CostAxis::Linear;
 };
 
-Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height);
+// On a logarithmic axis every cost is more than 0.
+Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height,
+                CostAxis costAxis = CostAxis::Linear);
 
 // Round steps of 1, 2 or 5 times a power of ten: about `count` numbers within [from, to].
 std::vector<double> roundSteps(double from, double to, int count);
+
+// 1, 2 and 5 times the powers of ten within [from, to], from > 0; the powers alone where that is more than
+// `most`.
+std::vector<double> decadeSteps(double from, double to, size_t most);
 
 }  // namespace gnomon

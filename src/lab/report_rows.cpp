@@ -211,7 +211,7 @@ std::string kindTitle(const std::string& kind) {
 }
 
 bool isShaded(const std::string& kind) {
-  return kind.find("beauty") != std::string::npos;
+  return kind == "medium" || kind.find("beauty") != std::string::npos;
 }
 
 View pictureViews(const ReportPictures& pictures, ReportPictureShelf& shelf) {

@@ -21,21 +21,12 @@ const char* lightTypeName(LightType type) {
   return "";
 }
 
-// Floats are written with the digits of a float: 0.1f as 0.1, not as 0.10000000149.
-double shortest(float value) {
-  return std::stod(fmt::format("{}", value));
-}
-
-Json toJson(const glm::vec3& v) {
-  return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)});
-}
-
 Json toJson(const std::string& name, const LightModel& light) {
   Json json;
   json["name"] = name;
   json["type"] = lightTypeName(light.type);
-  if (light.type != LightType::Directional) json["position"] = toJson(glm::vec3(light.positionW));
-  if (light.type != LightType::Point) json["direction"] = toJson(glm::vec3(light.directionW));
+  if (light.type != LightType::Directional) json["position"] = vectorJson(glm::vec3(light.positionW));
+  if (light.type != LightType::Point) json["direction"] = vectorJson(glm::vec3(light.directionW));
   if (light.type == LightType::Spot)
     json["cone_degrees"] = shortest(static_cast<float>(2.0 * glm::degrees(light.outerConeRad)));
   return json;
@@ -156,8 +147,16 @@ const char* gnomonVersion() {
   return GNOMON_VERSION;
 }
 
-std::string resultsJson(const Session& session, const SetupOptions& setup, const Comparison& comparison,
-                        const std::string& command) {
+double shortest(float value) {
+  return std::stod(fmt::format("{}", value));
+}
+
+Json vectorJson(const glm::vec3& v) {
+  return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)});
+}
+
+Json resultsHead(const Session& session, const SetupOptions& setup, const std::string& command,
+                 double gbufferMs) {
   const glsl::CameraView& view = session.view();
   Json json;
   json["schema"] = kResultsVersion;
@@ -169,15 +168,21 @@ std::string resultsJson(const Session& session, const SetupOptions& setup, const
                    {"source", setup.scene},
                    {"triangles", triangleCount(session.scene())},
                    {"sceneScale", shortest(computeBounds(session.scene()).diagonal())}};
-  json["light"] = toJson(comparison.truths.front().lightName, comparison.truths.front().light);
   json["camera"] = {{"name", session.camera().name},
-                    {"eye", toJson(view.eyeW)},
-                    {"forward", toJson(view.forwardW)},
-                    {"up", toJson(view.upW)},
+                    {"eye", vectorJson(view.eyeW)},
+                    {"forward", vectorJson(view.forwardW)},
+                    {"up", vectorJson(view.upW)},
                     {"fov_degrees", shortest(glm::degrees(session.camera().yFovRad))},
                     {"width", view.width},
                     {"height", view.height}};
-  json["gbuffer_ms"] = comparison.gbufferMs;
+  json["gbuffer_ms"] = gbufferMs;
+  return json;
+}
+
+std::string resultsJson(const Session& session, const SetupOptions& setup, const Comparison& comparison,
+                        const std::string& command) {
+  Json json = resultsHead(session, setup, command, comparison.gbufferMs);
+  json["light"] = toJson(comparison.truths.front().lightName, comparison.truths.front().light);
   json["truth"] = toJson(comparison.truths.front());
   json["truths"] = Json::array();
   for (const TruthSummary& truth : comparison.truths) json["truths"].push_back(toJson(truth));
@@ -185,6 +190,7 @@ std::string resultsJson(const Session& session, const SetupOptions& setup, const
   for (const MapSummary& map : comparison.maps) json["maps"].push_back(toJson(map));
   json["rows"] = Json::array();
   for (const Row& row : comparison.rows) json["rows"].push_back(toJson(row, comparison.gbufferMs));
+  json["media"] = Json::array();  // of gnomon fog
   return json.dump(2) + "\n";
 }
 

@@ -4,7 +4,7 @@
 // time on purpose: a reference that shared the shaders' functions could not find what is wrong with them.
 
 #include "base/image.h"
-#include "truth/tracer.h"
+#include "truth/receivers.h"
 
 #include "shared/scene.glsl"
 
@@ -32,7 +32,39 @@ struct MediumModel {
 
 struct MediaLight {
   glm::dvec3 positionW{0.0};
-  glm::dvec3 intensity{1.0};  // candela, a colour channel each
+  glm::dvec3 intensity{1.0};   // candela, a colour channel each
+  glm::dvec3 axisW{0, -1, 0};  // unit; a spot's
+  double cosCone = -1.0;       // of the half angle: nothing outside of it is lit; -1: a point light
 };
+
+struct MediaReferenceOptions {
+  double bound = 1e-3;     // of the picture's mean: what doubling a pixel's samples may still change it by
+  int firstSamples = 256;  // of visibility, a view ray and light; at least 1
+  int mostDoublings = 7;   // at least 2
+};
+
+struct MediaReference {
+  ImageF inScattered;        // rgb, cd/m^2
+  double mean = 0.0;         // over pixels and channels
+  double bound = 0.0;        // as asked for
+  double worstChange = 0.0;  // what the last doubling of any pixel changed a channel of it by, of the mean
+  size_t atLimit = 0;        // pixels that the last doubling allowed changed by more than the bound
+  int doublings = 0;         // the most of any pixel
+  uint64_t rays = 0;         // towards lights
+  double ms = 0.0;
+};
+
+// Metres from the eye to the surface a pixel sees, or to `reach` where that is nearer or there is none.
+std::vector<double> viewRayEnds(const glsl::CameraView& camera, const Receivers& receivers, double reach);
+
+// `ends`: a view ray's length in metres, one a pixel. Visibility is sampled at stratified points, jittered,
+// along phi, the angle at the light (equiangular sampling: Kulla and Fajardo, "Importance Sampling Techniques
+// for Path Tracing in Participating Media", EGSR 2012), and bisected between neighbours that differ. A tile's
+// samples are doubled until two doublings in a row change none of its pixels by more than the bound: one
+// alone is easily quiet because both passed a thin shaft by. All cores; the same whatever their number. Shows
+// progress.
+MediaReference computeMediaReference(const Tracer& tracer, std::span<const MediaLight> lights,
+                                     const glsl::CameraView& camera, std::span<const double> ends,
+                                     const MediumModel& medium, const MediaReferenceOptions& options = {});
 
 }  // namespace gnomon

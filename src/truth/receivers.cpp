@@ -13,15 +13,6 @@ namespace gnomon {
 
 namespace {
 
-// shared/scene.glsl's pixelDirection in double, from the same floats.
-RayD pixelRay(const glsl::CameraView& camera, int x, int y) {
-  const double sx = (2.0 * (x + 0.5) / camera.width - 1.0) * static_cast<double>(camera.tanHalfX);
-  const double sy = (1.0 - 2.0 * (y + 0.5) / camera.height) * static_cast<double>(camera.tanHalfY);
-  const glm::dvec3 dir =
-      glm::dvec3(camera.forwardW) + glm::dvec3(camera.rightW) * sx + glm::dvec3(camera.upW) * sy;
-  return {glm::dvec3(camera.eyeW), glm::normalize(dir)};
-}
-
 // Metres from a plane to the light, positive on the normal's side; of a directional light, only the sign
 // means much.
 double sideOfLight(const LightModel& light, const glm::dvec3& pointW, const glm::dvec3& normalW) {
@@ -45,6 +36,14 @@ PixelState classify(const LightModel& light, const glm::dvec3& eyeW, const glm::
 }
 
 }  // namespace
+
+RayD pixelRay(const glsl::CameraView& camera, int x, int y) {
+  const double sx = (2.0 * (x + 0.5) / camera.width - 1.0) * static_cast<double>(camera.tanHalfX);
+  const double sy = (1.0 - 2.0 * (y + 0.5) / camera.height) * static_cast<double>(camera.tanHalfY);
+  const glm::dvec3 dir =
+      glm::dvec3(camera.forwardW) + glm::dvec3(camera.rightW) * sx + glm::dvec3(camera.upW) * sy;
+  return {glm::dvec3(camera.eyeW), glm::normalize(dir)};
+}
 
 Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera, const LightModel& light,
                            std::span<const glsl::PrimitiveId> ids) {

@@ -43,6 +43,9 @@ struct Receivers {
   size_t outsideCone = 0;
 };
 
+// shared/scene.glsl's pixelDirection in double, from the same floats; unit, from the eye.
+RayD pixelRay(const glsl::CameraView& camera, int x, int y);
+
 // `ids`: width*height G-buffer pixels. All cores.
 Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera, const LightModel& light,
                            std::span<const glsl::PrimitiveId> ids);

@@ -21,6 +21,8 @@ namespace {
 // must reach the filter, which decides in double. Embree's float distances are good to 1e-6 but for surfaces
 // seen edge-on.
 constexpr float kOvershoot = 1.0f / 1024.0f;
+// What Embree meets before this share of a segment to a point in mid-air blocks it without a second look.
+constexpr float kSurelyBefore = 1.0f - kOvershoot;
 
 // An instance whose matrix squeezes the unit cube to less than this share of the product of its axes' lengths
 // has no usable inverse in float; its triangles are traced in world space instead.
@@ -78,6 +80,9 @@ struct Tracer::Impl {
     const glm::dvec3* receivers = nullptr;    // the segments' ends
     double* heights = nullptr;
     double enough = 0.0;
+    const double* distances = nullptr;  // to points in mid-air, whose rays start at lightW
+    const glm::dvec3* pointsW = nullptr;
+    glm::dvec3 lightW{0.0};
   };
 
   const Scene& scene;
@@ -97,11 +102,13 @@ struct Tracer::Impl {
   void corners(const Primitive& primitive, glm::dvec3 out[3]) const;
   bool isHole(const Primitive& primitive, const glm::dvec3& weights) const;
   glm::vec3 floatOrigin(const RayD& ray, double distance) const;
-  RTCRay floatRay(const ShadowSegment& segment, const glm::dvec3& receiver, unsigned id) const;
+  RTCRay floatRay(const RayD& ray, double distance, const glm::dvec3& end, unsigned id) const;
   void traceOne(const ShadowSegment& segment, double enough, double& height) const;
   void tracePacket(std::span<const ShadowSegment> segments, double enough, double* heights) const;
+  void tracePoints(const glm::dvec3& lightW, std::span<const glm::dvec3> pointsW, uint8_t* blocked) const;
   static void passHoles(const RTCFilterFunctionNArguments* args);
   static void judgeBlocker(const RTCFilterFunctionNArguments* args);
+  static void judgeBeforePoint(const Query& query, const RTCFilterFunctionNArguments* args);
 };
 
 // Passes first hits through holes. Set on masked meshes only.
@@ -121,6 +128,7 @@ void Tracer::Impl::passHoles(const RTCFilterFunctionNArguments* args) {
 // Ends a shadow ray at the first blocker higher than enough, and keeps the highest of the others.
 void Tracer::Impl::judgeBlocker(const RTCFilterFunctionNArguments* args) {
   const auto* query = reinterpret_cast<const Query*>(args->context);
+  if (query->pointsW != nullptr) return judgeBeforePoint(*query, args);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     args->valid[i] = 0;
@@ -136,6 +144,26 @@ void Tracer::Impl::judgeBlocker(const RTCFilterFunctionNArguments* args) {
     if (!(height > query->heights[id]) || query->impl->isHole(primitive, meeting.weights)) continue;
     query->heights[id] = height;
     if (height > query->enough) args->valid[i] = -1;
+  }
+}
+
+// Passes hits at or behind the point, and holes.
+void Tracer::Impl::judgeBeforePoint(const Query& query, const RTCFilterFunctionNArguments* args) {
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const Primitive primitive = hitPrimitive(args->hit, args->N, i);
+    const Mesh& mesh = *query.impl->meshes[primitive.instance];
+    const bool opaque =
+        query.impl->scene.materials[static_cast<size_t>(mesh.material)].alphaMode != AlphaMode::Mask;
+    if (opaque && RTCRayN_tfar(args->ray, args->N, i) < kSurelyBefore) continue;
+    const unsigned id = RTCRayN_id(args->ray, args->N, i);
+    const RayD ray{query.lightW, (query.pointsW[id] - query.lightW) / query.distances[id]};
+    glm::dvec3 at[3];
+    query.impl->corners(primitive, at);
+    const TriangleMeeting meeting =
+        meetHit(ray, at, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
+    if (!(meeting.distance < query.distances[id]) || query.impl->isHole(primitive, meeting.weights))
+      args->valid[i] = 0;
   }
 }
 
@@ -225,10 +253,10 @@ glm::vec3 Tracer::Impl::floatOrigin(const RayD& ray, double distance) const {
 
 // The direction is the whole stretch from the rounded origin to the receiver, so that the rounding of the
 // origin is made good at the end that matters, and distances are shares of the segment.
-RTCRay Tracer::Impl::floatRay(const ShadowSegment& segment, const glm::dvec3& receiver, unsigned id) const {
-  GNOMON_CHECK_LT(0.0, segment.distance);
-  const glm::vec3 origin = floatOrigin(segment.ray, segment.distance);
-  const glm::vec3 dir(receiver - glm::dvec3(origin));
+RTCRay Tracer::Impl::floatRay(const RayD& ray, double distance, const glm::dvec3& end, unsigned id) const {
+  GNOMON_CHECK_LT(0.0, distance);
+  const glm::vec3 origin = floatOrigin(ray, distance);
+  const glm::vec3 dir(end - glm::dvec3(origin));
   return {.org_x = origin.x,
           .org_y = origin.y,
           .org_z = origin.z,
@@ -248,9 +276,25 @@ void Tracer::Impl::traceOne(const ShadowSegment& segment, double enough, double&
   Query query{
       .impl = this, .segments = &segment, .receivers = &receiver, .heights = &height, .enough = enough};
   rtcInitIntersectContext(&query.rtc);
-  RTCRay ray = floatRay(segment, receiver, 0);
+  RTCRay ray = floatRay(segment.ray, segment.distance, receiver, 0);
   rtcOccluded1(top.get(), &query.rtc, &ray);
 }
+
+namespace {
+
+void putRay(const RTCRay& ray, RTCRay16& rays, unsigned i) {
+  rays.org_x[i] = ray.org_x;
+  rays.org_y[i] = ray.org_y;
+  rays.org_z[i] = ray.org_z;
+  rays.dir_x[i] = ray.dir_x;
+  rays.dir_y[i] = ray.dir_y;
+  rays.dir_z[i] = ray.dir_z;
+  rays.tfar[i] = ray.tfar;
+  rays.mask[i] = ray.mask;
+  rays.id[i] = ray.id;
+}
+
+}  // namespace
 
 // Not flagged as coherent: with instances in the scene Embree 3.13.5's coherent packet path was seen not to
 // return.
@@ -267,19 +311,28 @@ void Tracer::Impl::tracePacket(std::span<const ShadowSegment> segments, double e
   RTCRay16 rays = {};
   for (unsigned i = 0; i < segments.size(); ++i) {
     receivers[i] = segments[i].ray.origin + segments[i].ray.dir * segments[i].distance;
-    const RTCRay ray = floatRay(segments[i], receivers[i], i);
     valid[i] = -1;
-    rays.org_x[i] = ray.org_x;
-    rays.org_y[i] = ray.org_y;
-    rays.org_z[i] = ray.org_z;
-    rays.dir_x[i] = ray.dir_x;
-    rays.dir_y[i] = ray.dir_y;
-    rays.dir_z[i] = ray.dir_z;
-    rays.tfar[i] = ray.tfar;
-    rays.mask[i] = ray.mask;
-    rays.id[i] = ray.id;
+    putRay(floatRay(segments[i].ray, segments[i].distance, receivers[i], i), rays, i);
   }
   rtcOccluded16(valid, top.get(), &query.rtc, &rays);
+}
+
+void Tracer::Impl::tracePoints(const glm::dvec3& lightW, std::span<const glm::dvec3> pointsW,
+                               uint8_t* blocked) const {
+  double distances[kPacket];
+  Query query{.impl = this, .distances = distances, .pointsW = pointsW.data(), .lightW = lightW};
+  rtcInitIntersectContext(&query.rtc);
+  alignas(64) int valid[kPacket] = {};
+  RTCRay16 rays = {};
+  for (unsigned i = 0; i < pointsW.size(); ++i) {
+    const glm::dvec3 towards = pointsW[i] - lightW;
+    distances[i] = glm::length(towards);
+    valid[i] = -1;
+    putRay(floatRay({lightW, towards / distances[i]}, distances[i], pointsW[i], i), rays, i);
+  }
+  rtcOccluded16(valid, top.get(), &query.rtc, &rays);
+  // Embree marks an occluded ray by a tfar of -infinity.
+  for (size_t i = 0; i < pointsW.size(); ++i) blocked[i] = rays.tfar[i] < 0.0f ? 1 : 0;
 }
 
 Tracer::Tracer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
@@ -373,6 +426,13 @@ void Tracer::blockerHeights(std::span<const ShadowSegment> segments, double enou
   for (size_t i = 0; i < segments.size(); i += kPacket) {
     impl_->tracePacket(segments.subspan(i, std::min(kPacket, segments.size() - i)), enough, &heights[i]);
   }
+}
+
+void Tracer::blockPoints(const glm::dvec3& lightW, std::span<const glm::dvec3> pointsW,
+                         std::span<uint8_t> blocked) const {
+  GNOMON_CHECK_EQ(pointsW.size(), blocked.size());
+  for (size_t i = 0; i < pointsW.size(); i += kPacket)
+    impl_->tracePoints(lightW, pointsW.subspan(i, std::min(kPacket, pointsW.size() - i)), &blocked[i]);
 }
 
 void Tracer::corners(const Primitive& primitive, glm::dvec3 out[3]) const {

@@ -293,7 +293,7 @@ TEST_F(ReportTest, NamesTheFieldThatIsWrong) {
     EXPECT_EQ(line.find('\n'), std::string::npos);
     return line;
   };
-  EXPECT_NE(after([](Json& j) { j["schema"] = 3; }).find("has schema 3; this gnomon reads 1 to 2"),
+  EXPECT_NE(after([](Json& j) { j["schema"] = 4; }).find("has schema 4; this gnomon reads 1 to 3"),
             std::string::npos);
   EXPECT_NE(after([](Json& j) { j.erase("schema"); }).find("schema is missing"), std::string::npos);
   EXPECT_NE(after([](Json& j) { j = 5; }).find("must be an object"), std::string::npos);

@@ -3,9 +3,13 @@
 // or by marching through a shadow map. The model is in shaders/shared/medium.glsl.
 
 #include "scene/gbuffer.h"
+#include "vsv/media/density.h"
 #include "vsv/shadow_volume.h"
 
-#include "shared/medium.glsl"
+#include "shared/media_pass.glsl"
+
+#include <string>
+#include <vector>
 
 namespace gnomon {
 
@@ -27,7 +31,83 @@ struct MediaMethod {
 
 struct MediaLightSource {
   glm::dvec3 positionW{0.0};
-  glm::vec3 intensity{1.0f};  // candela, a colour channel each
+  glm::vec3 intensity{1.0f};       // candela, a colour channel each
+  glm::dvec3 coneAxisW{0, -1, 0};  // unit, the way a spot light shines
+  double coneCos = -1.0;           // of its half angle, >= 0; -1: it shines everywhere
+};
+// Point and spot lights. Throws WorldError where it is a directional one.
+MediaLightSource mediaLight(const Light& light);
+
+// Where visibility comes from: a volume (Runs, Bits, Popcount) or a map (March) of the light.
+struct MediaVisibility {
+  const ShadowVolume* volume = nullptr;
+  const MapImage* map = nullptr;
+  MediaVisibility(const ShadowVolume& v) : volume(&v) {}
+  MediaVisibility(const MapImage& m) : map(&m) {}
+};
+
+// Where the view rays of all pixels end, and the eye: what a volume or map for a medium is fitted to
+// (FitInput::receiversW). `reach`: Medium::reach.
+std::vector<glm::dvec3> mediaReceiversW(const glsl::CameraView& camera, const Receivers& receivers,
+                                        double reach);
+
+// Metres from the eye to the farthest corner of the scene's bounds: a reach that ends every view ray.
+float defaultReach(const Scene& scene, const glm::vec3& eyeW);
+
+class MediaPass {
+ public:
+  MediaPass(const gpu::Device& device, int width, int height);
+
+  // Of the frames recorded from now on. `density`: what makes the medium heterogeneous; it outlives them.
+  void setMedium(const glsl::CameraView& camera, const glsl::Medium& medium,
+                 const DensityBuffers* density = nullptr);
+
+  // The table that record() reads: once a frame and light, before it, and a barrier between. Homogeneous: the
+  // running integral in the frame of the volume, nothing for a map. Heterogeneous: the density between the
+  // light and what is about it. Stage "media table".
+  void recordTable(gpu::Commands& commands, const MediaVisibility& visibility, const MediaLightSource& light);
+
+  // Light scattered towards the eye. In a heterogeneous medium every integrator marches, and the visibility
+  // says whether through bits or a map. `add`: to what other lights scattered. Stage "media integrate".
+  // Several lights: recordTable, barrier, record, barrier, recordTable of the next.
+  void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+              const MediaVisibility& visibility, const MediaLightSource& light, const MediaMethod& method,
+              bool add);
+
+  // The surfaces' own light, attenuated from the light and to the eye; in a heterogeneous medium after
+  // record() of the same light, whose table and depths to the eye it reads. `shade` and `visibility`: a
+  // VisibilityPass's of the same camera, with lightColor the intensity over pi. Stage "media surfaces".
+  void recordSurfaces(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                      const MediaLightSource& light, const gpu::Buffer& shade, const gpu::Buffer& visibility,
+                      bool add);
+
+  // Surfaces and scattered light: radiance(). After a barrier behind both.
+  void recordSum(gpu::Commands& commands);
+
+  // A vec3 a pixel each, cd/m^2, tightly packed.
+  const gpu::Buffer& inScattered() const { return inScattered_; }
+  const gpu::Buffer& surfaces() const { return surfaces_; }
+  const gpu::Buffer& radiance() const { return radiance_; }
+
+ private:
+  struct Variant {
+    std::string shader;
+    std::vector<gpu::Specialization> constants;
+    gpu::ComputeProgram program;
+  };
+  const gpu::ComputeProgram& program(const char* shader, const std::vector<gpu::Specialization>& constants);
+  void recordDensity(gpu::Commands& commands, const MediaVisibility& visibility,
+                     const MediaLightSource& light, const glsl::MediaPush& push,
+                     const gpu::Specialization& instanced, std::vector<gpu::Binding> bindings);
+
+  const gpu::Device& device_;
+  glm::uvec3 groupCount_;
+  const DensityBuffers* density_ = nullptr;
+  gpu::Buffer uniforms_;
+  gpu::Image running_;
+  gpu::Buffer lightDepth_, eyeDepth_;  // made at the first density
+  gpu::Buffer inScattered_, surfaces_, radiance_;
+  std::vector<std::unique_ptr<Variant>> variants_;  // compiled at first use
 };
 
 }  // namespace gnomon

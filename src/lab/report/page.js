@@ -40,6 +40,7 @@
     const mine = viewer.querySelector(".mine");
     const exact = viewer.querySelector(".exact");
     const title = row.querySelector(".name").textContent;
+    const exactName = row.dataset.exactName || "exact shadow";
     let kind = null, pinned = false, hovered = false;
 
     stage.style.aspectRatio = `${row.dataset.width} / ${row.dataset.height}`;
@@ -48,10 +49,10 @@
       const swapped = exact.hasAttribute("src") && pinned !== hovered;
       stage.classList.toggle("swapped", swapped);
       stage.setAttribute("aria-pressed", String(pinned));
-      const text = swapped ? "exact shadow" : `${title}, ${kind.title.toLowerCase()}`;
+      const text = swapped ? exactName : `${title}, ${kind.title.toLowerCase()}`;
       viewer.querySelector(".shown").textContent = text;
       if (!hovered) viewer.querySelector(".state").textContent = `Shown: ${text}.`;
-      stage.setAttribute("aria-label", stage.disabled ? text : `${text}; swap with the exact shadow`);
+      stage.setAttribute("aria-label", stage.disabled ? text : `${text}; swap with the ${exactName}`);
     };
     const choose = (next) => {
       kind = next;

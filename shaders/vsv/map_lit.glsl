@@ -1,0 +1,18 @@
+// Whether the light reaches a point in the open, by a shadow map. Without bias: there is no surface there to shadow itself.
+#ifndef GNOMON_MAP_LIT_GLSL
+#define GNOMON_MAP_LIT_GLSL
+
+#include "shared/map.glsl"
+#include "shared/shade.glsl"
+
+layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
+
+// A texel in which nothing was drawn shadows nothing, and what no layer covers is lit.
+bool isMapLit(ShadowMap map, vec3 posL) {
+  MapPoint point = mapProject(map, posL);
+  if (!point.covered) return true;
+  float stored = texelFetch(mapDepthLayers, ivec3(mapTexel(map, point.uv), point.layer), 0).x;
+  return stored >= 1.0f || mapDepth(map, point.layer, posL) < stored;
+}
+
+#endif

@@ -1,0 +1,269 @@
+#include "base/error.h"
+#include "base/file.h"
+#include "cli/common_flags.h"
+#include "cli/verbs.h"
+#include "lab/fog.h"
+#include "lab/fog_motion.h"
+#include "lab/fog_pictures.h"
+#include "lab/fog_report.h"
+#include "lab/maps.h"
+#include "lab/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+namespace gnomon {
+
+namespace {
+
+struct FogFlags {
+  SceneFlags scene;
+  MethodFlags method;  // --map-size, --cull and those of volumes
+  std::string out, json;
+  bool truth = false, noCache = false;
+  double bound = 1e-3;
+  std::string integrators;
+  std::string steps = "32,128,512";
+  std::string marchMap = "cube";
+  std::string sigmaS, sigmaA = "0";
+  double g = 0.2;
+  std::optional<double> reach;
+  double ambient = 0.0;
+  std::string density, densityAt;
+  std::optional<double> densityScale;
+  int repeats = 5;
+  int frames = 0;
+  std::string move;
+};
+
+constexpr int kMostSteps = 65536;
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream in(list);
+  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+  return words;
+}
+
+std::optional<double> numberOf(const std::string& text) {
+  try {
+    size_t used = 0;
+    const double value = std::stod(text, &used);
+    if (used == text.size() && std::isfinite(value)) return value;
+  } catch (const std::exception&) {
+  }
+  return std::nullopt;
+}
+
+// "s" or "r,g,b", per metre.
+glm::vec3 parseSpectrum(const char* flag, const std::string& text) {
+  const std::vector<std::string> words = split(text);
+  glm::vec3 spectrum(0.0f);
+  for (size_t i = 0; i < 3; ++i) {
+    const std::optional<double> value =
+        words.size() == 1 || words.size() == 3 ? numberOf(words[words.size() == 1 ? 0 : i]) : std::nullopt;
+    if (!value || *value < 0.0 || *value > 1e6)
+      throw UsageError(fmt::format("{} {}: write one number or r,g,b, each 0..1e6 per metre", flag, text));
+    spectrum[static_cast<int>(i)] = static_cast<float>(*value);
+  }
+  return spectrum;
+}
+
+template <typename Parse>
+auto parseList(const char* flag, const std::string& list, const Parse& parse) {
+  std::vector<decltype(parse(list))> items;
+  for (const std::string& word : split(list)) {
+    const auto item = parse(word);
+    if (std::ranges::find(items, item) == items.end()) items.push_back(item);
+  }
+  if (items.empty()) throw UsageError(fmt::format("{}: name at least one", flag));
+  return items;
+}
+
+int parseSteps(const std::string& text) {
+  const std::optional<double> value = numberOf(text);
+  if (!value || *value < 1.0 || *value > kMostSteps || *value != std::floor(*value))
+    throw UsageError(fmt::format("--steps {}: whole numbers of 1..{}, as in 32,128,512", text, kMostSteps));
+  return static_cast<int>(*value);
+}
+
+const Parameterization* parseMarchMap(const std::string& name) {
+  if (name != "cube" && name != "paraboloid")
+    throw UsageError(fmt::format("--march-map {}: choose cube or paraboloid", name));
+  return parseMaps(name).front();
+}
+
+// A picture where -o names one, else a folder.
+bool isPicture(const std::string& out) {
+  const std::string extension = std::filesystem::path(out).extension().string();
+  return extension == ".exr" || extension == ".png";
+}
+
+std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags) {
+  if (flags.density.empty()) {
+    if (!flags.densityAt.empty() || flags.densityScale)
+      throw UsageError("--density-at and --density-scale need a --density");
+    return nullptr;
+  }
+  DensityPlacement placement{.scale = flags.densityScale.value_or(1.0)};
+  if (!(placement.scale >= 1e-6 && placement.scale <= 1e6))
+    throw UsageError(fmt::format("--density-scale {}: a factor of size, 1e-6..1e6", placement.scale));
+  if (!flags.densityAt.empty()) placement.centerW = glm::dvec3(parseVec3("--density-at", flags.densityAt));
+  return std::make_shared<const DensityGrid>(flags.density, placement);
+}
+
+FogMedium fogMedium(const FogFlags& flags) {
+  FogMedium medium{.sigmaA = parseSpectrum("--sigma-a", flags.sigmaA), .reach = flags.reach};
+  if (!flags.sigmaS.empty()) medium.sigmaS = parseSpectrum("--sigma-s", flags.sigmaS);
+  if (!(std::abs(flags.g) < 1.0))
+    throw UsageError(fmt::format("--g {}: a mean cosine lies between -1 and 1", flags.g));
+  medium.g = static_cast<float>(flags.g);
+  if (flags.reach && !(*flags.reach > 0.0 && *flags.reach < 1e9))
+    throw UsageError(fmt::format("--reach {}: metres, more than 0 and less than 1e9", *flags.reach));
+  if (!(flags.ambient >= 0.0 && flags.ambient < 1e9))
+    throw UsageError(fmt::format("--ambient {}: cd/m^2, 0 or more and less than 1e9", flags.ambient));
+  medium.ambient = static_cast<float>(flags.ambient);
+  medium.density = densityOf(flags);
+  return medium;
+}
+
+FogOptions fogOptions(const FogFlags& flags) {
+  const bool folder = !flags.out.empty() && !isPicture(flags.out);
+  // A picture alone needs one way to integrate; whoever asks for numbers wants all.
+  const bool compares = folder || flags.truth || !flags.json.empty() || flags.out.empty();
+  const std::string integrators = !flags.integrators.empty() ? flags.integrators
+                                  : compares                 ? "runs,bits,popcount,march"
+                                                             : "runs";
+  FogOptions options{.integrators = parseList("--integrators", integrators, parseIntegrator),
+                     .steps = parseList("--steps", flags.steps, parseSteps),
+                     .marchMap = parseMarchMap(flags.marchMap),
+                     .mapSide = flags.method.mapSize,
+                     .cull = parseCullMode(flags.method.cull),
+                     .medium = fogMedium(flags),
+                     .truth = flags.truth,
+                     .cache = !flags.noCache,
+                     .repeats = flags.repeats};
+  options.map.volumeSize = parseVolumeSize(flags.method.vsvSize);
+  options.map.volumeSource = parseVolumeSource(flags.method.vsvSource);
+  options.map.volumeFit = parseVolumeFit(flags.method.vsvFit);
+  if (!(flags.bound >= 1e-6 && flags.bound <= 1.0))
+    throw UsageError(fmt::format("--bound {}: a share of the picture's mean, 1e-6..1", flags.bound));
+  options.reference.bound = flags.bound;
+  if (flags.move.empty() != (flags.frames == 0)) throw UsageError("--frames and --move need each other");
+  if (!flags.move.empty()) options.motion = parseMotion(flags.move, flags.frames);
+  if (options.motion && !folder && !flags.truth)
+    throw UsageError("--frames: give a folder with -o for the frames, or --truth to measure flicker");
+  if (folder) options.outDir = flags.out;
+  return options;
+}
+
+void writePicture(const std::filesystem::path& path, const FogResult& result, const ImageF& inScattered) {
+  if (path.extension() == ".exr")
+    writeFogExr(path, result.view, inScattered);
+  else
+    writePng(path, exposed(composed(result.view, inScattered), result.exposure));
+  std::printf("wrote %s\n", path.string().c_str());
+}
+
+int runFogVerb(const FogFlags& flags) {
+  const FogOptions options = fogOptions(flags);
+  const Session session = openSession(flags.scene);
+  const FogResult result = runFog(session, options);
+  const std::string json = fogJson(session, options, result, commandLine());
+  if (!options.outDir.empty()) {
+    writeTextFile(options.outDir / "results.json", json);
+    writeTextFile(options.outDir / "report.html", reportHtml(options.outDir));
+  }
+  if (!flags.json.empty()) writeTextFile(flags.json, json);
+  std::fputs(fogTable(session, options, result).c_str(), stdout);
+  if (!options.outDir.empty()) {
+    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(),
+                flags.out.c_str());
+  } else if (!flags.out.empty()) {
+    const std::filesystem::path path = flags.out;
+    writePicture(path, result, result.inScattered.front());
+    if (result.reference) {
+      std::filesystem::path beside = path;
+      beside.replace_filename(path.stem().string() + ".reference" + path.extension().string());
+      writePicture(beside, result, result.reference->inScattered);
+    }
+  }
+  return 0;
+}
+
+void addMediumFlags(CLI::App& verb, FogFlags& flags) {
+  verb.add_option(
+      "--sigma-s", flags.sigmaS,
+      "scattering per metre, one number or r,g,b; default: grey, so that the scene's diagonal is half an "
+      "optical depth");
+  verb.add_option("--sigma-a", flags.sigmaA, "absorption per metre, one number or r,g,b")
+      ->capture_default_str();
+  verb.add_option("--g", flags.g,
+                  "mean cosine of the phase function (Henyey and Greenstein), between -1 and 1")
+      ->capture_default_str();
+  verb.add_option(
+      "--reach", flags.reach,
+      "metres from the eye at which view rays end that meet no surface before; default: the farthest "
+      "corner of the scene's bounds");
+  verb.add_option(
+      "--density", flags.density,
+      "FILE.vdb[:grid], a float grid: what sigma_s and sigma_a are multiplied by (`gnomon scene --density` "
+      "makes some); default: none, a homogeneous medium");
+  verb.add_option("--density-at", flags.densityAt,
+                  "x,y,z: where the density's centre goes, metres; default: where the file has it");
+  verb.add_option("--density-scale", flags.densityScale, "factor of the density's size; default: 1");
+  verb.add_option("--ambient", flags.ambient, "cd/m^2 that a white surface shows without any light")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+Run addFogVerb(CLI::App& app) {
+  auto flags = std::make_shared<FogFlags>();
+  CLI::App* verb = app.add_subcommand(
+      "fog", "light shafts in a medium: pictures, and each way to integrate them against a traced reference");
+  addSceneFlags(*verb, flags->scene);
+  verb->add_option(
+      "-o,--out", flags->out,
+      "a picture, .exr (cd/m^2) or .png (exposed), of the first of --integrators; or a folder for "
+      "report.html, results.json and all pictures");
+  verb->add_option("--json", flags->json, "write results.json here");
+  verb->add_flag("--truth", flags->truth, "trace the reference, and score each way to integrate against it");
+  verb->add_option("--bound", flags->bound,
+                   "what doubling a pixel's samples may still change the reference by, of the picture's mean")
+      ->capture_default_str();
+  verb->add_flag("--no-cache", flags->noCache, "neither read nor keep a reference of an earlier run");
+  verb->add_option(
+      "--integrators", flags->integrators,
+      "of runs, bits, popcount (of a shadow volume) and march (through a map); default: all, and runs "
+      "alone where only a picture is asked for");
+  verb->add_option("--steps", flags->steps,
+                   "samples a view ray of a march; in a density, of every way to integrate")
+      ->capture_default_str();
+  verb->add_option("--march-map", flags->marchMap, "what a march looks shadows up in: cube or paraboloid")
+      ->capture_default_str();
+  addMediumFlags(*verb, *flags);
+  addVolumeFlags(*verb, flags->method);
+  verb->add_option("--map-size", flags->method.mapSize,
+                   "side of a layer of the march's map, and of the cube map of --vsv-source resample; texels")
+      ->check(CLI::Range(2, 16384))
+      ->capture_default_str();
+  verb->add_option("--cull", flags->method.cull,
+                   "solids: closed one-sided meshes cast by their lit faces only; none: everything casts")
+      ->capture_default_str();
+  verb->add_option("--frames", flags->frames, "pictures along --move; with --truth also their flicker");
+  verb->add_option("--move", flags->move,
+                   "light:x,y,z or camera:x,y,z: metres by which it moves from the first frame to the last");
+  verb->add_option("--repeats", flags->repeats, "of every timed stage; medians are told")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  return [flags] { return runFogVerb(*flags); };
+}
+
+}  // namespace gnomon

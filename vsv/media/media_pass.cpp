@@ -1,0 +1,249 @@
+#include "vsv/media/media_pass.h"
+
+#include "base/check.h"
+#include "base/error.h"
+
+#include "shared/media_pass.glsl"
+#include "shared/shade.glsl"
+#include "shared/volume.glsl"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+constexpr std::array<const char*, 4> kIntegratorNames = {"runs", "bits", "popcount", "march"};
+
+uint32_t groups(int count, int size) {
+  return static_cast<uint32_t>((count + size - 1) / size);
+}
+
+VkDeviceSize pictureBytes(int width, int height) {
+  return static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height) * sizeof(glm::vec3);
+}
+
+glsl::MediaPush pushFor(const MediaLightSource& light, const MediaMethod& method, bool add) {
+  return {.lightW = glm::vec3(light.positionW),
+          .intensity = light.intensity,
+          .coneAxisW = glm::vec3(light.coneAxisW),
+          .coneCos = static_cast<float>(light.coneCos),
+          .steps = method.steps,
+          .add = add ? 1 : 0};
+}
+
+int32_t bitsIntegrator(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::Runs:
+      return glsl::kIntegrateRuns;
+    case Integrator::Bits:
+      return glsl::kIntegrateBits;
+    default:
+      return glsl::kIntegratePopcount;
+  }
+}
+
+}  // namespace
+
+Integrator parseIntegrator(const std::string& name) {
+  const auto found = std::ranges::find(kIntegratorNames, name);
+  if (found == kIntegratorNames.end())
+    throw UsageError(fmt::format("--integrators {}: choose of {}", name, fmt::join(kIntegratorNames, ", ")));
+  return static_cast<Integrator>(found - kIntegratorNames.begin());
+}
+
+const char* integratorName(Integrator integrator) {
+  return kIntegratorNames[static_cast<size_t>(integrator)];
+}
+
+MediaLightSource mediaLight(const Light& light) {
+  if (light.type == LightType::Directional)
+    throw WorldError(fmt::format(
+        "the light '{}' is directional, and shafts are made of point and spot lights; choose another with "
+        "--light",
+        light.name));
+  MediaLightSource source{.positionW = glm::dvec3(light.positionW),
+                          .intensity = light.color * light.intensity};
+  if (light.type == LightType::Spot) {
+    source.coneAxisW = glm::normalize(glm::dvec3(light.directionW));
+    source.coneCos = std::max(std::cos(static_cast<double>(light.outerConeRad)), 0.0);
+  }
+  return source;
+}
+
+std::vector<glm::dvec3> mediaReceiversW(const glsl::CameraView& camera, const Receivers& receivers,
+                                        double reach) {
+  const glm::dvec3 eyeW(camera.eyeW);
+  std::vector<glm::dvec3> ends(receivers.states.size() + 1, eyeW);
+  for (size_t i = 0; i < receivers.states.size(); ++i) {
+    const int x = static_cast<int>(i) % receivers.width, y = static_cast<int>(i) / receivers.width;
+    const glm::dvec3 dir = glm::normalize(glm::dvec3(glsl::pixelDirection(camera, x, y)));
+    double end = reach;
+    if (receivers.states[i] != PixelState::Empty)
+      end = std::min(end, glm::dot(receivers.samples[i].positionW - eyeW, dir));
+    ends[i] = eyeW + dir * end;
+  }
+  return ends;
+}
+
+float defaultReach(const Scene& scene, const glm::vec3& eyeW) {
+  const Bounds bounds = computeBounds(scene);
+  return glm::length(glm::max(glm::abs(bounds.lower - eyeW), glm::abs(bounds.upper - eyeW)));
+}
+
+MediaPass::MediaPass(const gpu::Device& device, int width, int height)
+    : device_(device),
+      groupCount_(groups(width, glsl::kMediaGroupSide), groups(height, glsl::kMediaGroupSide), 1),
+      uniforms_(device, {.name = "media uniforms",
+                         .size = sizeof(glsl::MediaUniforms),
+                         .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
+      running_(device, {.name = "running integral",
+                        .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                        .width = glsl::kTableColumns,
+                        .height = glsl::kTableRows,
+                        .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}),
+      inScattered_(device, {.name = "in-scattered light", .size = pictureBytes(width, height)}),
+      surfaces_(device, {.name = "surfaces in the medium", .size = pictureBytes(width, height)}),
+      radiance_(device, {.name = "radiance with the medium", .size = pictureBytes(width, height)}) {}
+
+const gpu::ComputeProgram& MediaPass::program(const char* shader,
+                                              const std::vector<gpu::Specialization>& constants) {
+  const auto same = [](const gpu::Specialization& a, const gpu::Specialization& b) {
+    return a.id == b.id && a.value == b.value;
+  };
+  for (const auto& variant : variants_)
+    if (variant->shader == shader && std::ranges::equal(variant->constants, constants, same))
+      return variant->program;
+  variants_.push_back(
+      std::make_unique<Variant>(Variant{shader, constants, {device_, {shader, {}}, constants}}));
+  return variants_.back()->program;
+}
+
+void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& medium,
+                          const DensityBuffers* density) {
+  density_ = density;
+  if (density != nullptr && lightDepth_.size() == 0) {
+    constexpr int kFloats = 2 * glsl::kLightDepthRadii * glsl::kLightDepthSide * glsl::kLightDepthSide;
+    lightDepth_ = gpu::Buffer(device_, {.name = "density to the light", .size = kFloats * sizeof(float)});
+    eyeDepth_ = gpu::Buffer(device_, {.name = "density to the eye", .size = inScattered_.size() / 3});
+  }
+  gpu::upload(device_, uniforms_, gpu::asPush(glsl::MediaUniforms{.camera = camera, .medium = medium}));
+}
+
+void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visibility,
+                            const MediaLightSource& light) {
+  commands.beginStage("media table");
+  if (density_ != nullptr) {
+    const glsl::DensityPush push{
+        .light = pushFor(light, {}, false),
+        .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
+    const uint32_t side = groups(glsl::kLightDepthSide, glsl::kMediaGroupSide);
+    commands.dispatch(program("vsv/tabulate_light_depth.comp.glsl", {}),
+                      {side, side, static_cast<uint32_t>(push.reach.layers)}, gpu::asPush(push),
+                      {{glsl::kBindDensity, density_->words},
+                       {glsl::kBindDensityPlace, density_->place},
+                       {glsl::kBindLightDepth, lightDepth_}});
+  } else if (visibility.volume != nullptr) {
+    commands.dispatch(program("vsv/tabulate_scattering.comp.glsl", {}),
+                      {groups(glsl::kTableRows, glsl::kTableGroupSize), 1, 1}, {},
+                      {{glsl::kBindMap, visibility.volume->uniforms()},
+                       {glsl::kBindMedia, uniforms_},
+                       {glsl::kBindRunning, running_}});
+  }
+  commands.endStage();
+}
+
+void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                       const MediaVisibility& visibility, const MediaLightSource& light,
+                       const MediaMethod& method, bool add) {
+  const bool marchesMap = method.integrator == Integrator::March;
+  GNOMON_CHECK(marchesMap ? visibility.map != nullptr : visibility.volume != nullptr);
+  GNOMON_CHECK(method.steps > 0 || (!marchesMap && density_ == nullptr));
+  std::vector<gpu::Binding> bindings = {
+      {glsl::kBindPositions, scene.positions},
+      {glsl::kBindTriangles, scene.triangles},
+      {glsl::kBindInstances, scene.instances},
+      {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+      {glsl::kBindMedia, uniforms_},
+      {glsl::kBindInScattered, inScattered_},
+      {glsl::kBindMap, marchesMap ? visibility.map->uniforms() : visibility.volume->uniforms()}};
+  const glsl::MediaPush push = pushFor(light, method, add);
+  const gpu::Specialization instanced{.id = 4, .value = scene.instanced ? 1 : 0};
+  commands.beginStage("media integrate");
+  if (density_ != nullptr) {
+    recordDensity(commands, visibility, light, push, instanced, std::move(bindings));
+  } else if (marchesMap) {
+    bindings.emplace_back(glsl::kBindMapDepth, visibility.map->depth());
+    commands.dispatch(
+        program("vsv/march_map.comp.glsl", {{.id = 0, .value = visibility.map->kind()}, instanced}),
+        groupCount_, gpu::asPush(push), bindings);
+  } else {
+    bindings.emplace_back(glsl::kBindBits, visibility.volume->bits());
+    bindings.emplace_back(glsl::kBindRunning, running_);
+    commands.dispatch(program("vsv/integrate_bits.comp.glsl",
+                              {{.id = 0, .value = bitsIntegrator(method.integrator)}, instanced}),
+                      groupCount_, gpu::asPush(push), bindings);
+  }
+  commands.endStage();
+}
+
+// One of the two sources of visibility is bound and not read.
+void MediaPass::recordDensity(gpu::Commands& commands, const MediaVisibility& visibility,
+                              const MediaLightSource& light, const glsl::MediaPush& lightPush,
+                              const gpu::Specialization& instanced, std::vector<gpu::Binding> bindings) {
+  const bool ofMap = visibility.map != nullptr;
+  bindings.emplace_back(glsl::kBindMapDepth,
+                        ofMap ? visibility.map->depth() : visibility.volume->source().depth());
+  bindings.emplace_back(glsl::kBindBits, ofMap ? lightDepth_ : visibility.volume->bits());
+  bindings.emplace_back(glsl::kBindDensity, density_->words);
+  bindings.emplace_back(glsl::kBindDensityPlace, density_->place);
+  bindings.emplace_back(glsl::kBindLightDepth, lightDepth_);
+  bindings.emplace_back(glsl::kBindEyeDepth, eyeDepth_);
+  const glsl::DensityPush push{
+      .light = lightPush, .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
+  const int kind = ofMap ? visibility.map->kind() : glsl::kMapEpipolar;
+  commands.dispatch(program("vsv/march_density.comp.glsl", {{.id = 0, .value = kind}, instanced}),
+                    groupCount_, gpu::asPush(push), bindings);
+}
+
+void MediaPass::recordSurfaces(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                               const MediaLightSource& light, const gpu::Buffer& shade,
+                               const gpu::Buffer& visibility, bool add) {
+  glsl::DensityPush push{.light = pushFor(light, {}, add), .reach = {}};
+  std::vector<gpu::Binding> bindings = {{glsl::kBindPositions, scene.positions},
+                                        {glsl::kBindTriangles, scene.triangles},
+                                        {glsl::kBindInstances, scene.instances},
+                                        {glsl::kBindUvs, scene.uvs},
+                                        {glsl::kBindNormals, scene.normals},
+                                        {glsl::kBindMaterials, scene.materials},
+                                        {glsl::kBindTextures, scene.textures},
+                                        {glsl::kBindTexels, scene.texels},
+                                        {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+                                        {glsl::kBindShade, shade},
+                                        {glsl::kBindVisibility, visibility},
+                                        {glsl::kBindMedia, uniforms_},
+                                        {glsl::kBindSurface, surfaces_}};
+  // Homogeneous: bound and not read.
+  bindings.emplace_back(glsl::kBindLightDepth, density_ != nullptr ? lightDepth_ : inScattered_);
+  bindings.emplace_back(glsl::kBindEyeDepth, density_ != nullptr ? eyeDepth_ : inScattered_);
+  if (density_ != nullptr) push.reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW);
+  commands.beginStage("media surfaces");
+  commands.dispatch(
+      program("vsv/shade_surface_in_medium.comp.glsl", {{.id = 0, .value = density_ != nullptr ? 1 : 0}}),
+      groupCount_, gpu::asPush(push), bindings);
+  commands.endStage();
+}
+
+void MediaPass::recordSum(gpu::Commands& commands) {
+  commands.dispatch(program("vsv/add_scattered_light.comp.glsl", {}), groupCount_, {},
+                    {{glsl::kBindMedia, uniforms_},
+                     {glsl::kBindInScattered, inScattered_},
+                     {glsl::kBindSurface, surfaces_},
+                     {glsl::kBindMediaRadiance, radiance_}});
+}
+
+}  // namespace gnomon

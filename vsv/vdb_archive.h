@@ -1,0 +1,46 @@
+#pragma once
+// Writing .vdb files, and what OpenVDB says when it fails: for the .cpp files that include OpenVDB anyway.
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <openvdb/openvdb.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace gnomon {
+
+// OpenVDB puts the exception's name before the text.
+inline std::string openVdbMessage(const std::exception& error) {
+  const std::string text = error.what();
+  const size_t colon = text.find(": ");
+  return colon == std::string::npos ? text : text.substr(colon + 2);
+}
+
+// OpenVDB's own File writes to a stream whose failures it does not look at, so that a full disk would go
+// unseen.
+class CheckedArchive : public openvdb::io::Archive {
+ public:
+  void writeTo(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
+               const openvdb::MetaMap& meta) const {
+    std::ofstream out(path, std::ios::binary);
+    if (out) Archive::write(out, grids, /*seekable=*/true, meta);
+    out.close();
+    if (!out) throw openvdb::IoError("check that the folder exists and has room");
+  }
+};
+
+// Whole or not at all. Throws WorldError.
+inline void writeGrids(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
+                       const openvdb::MetaMap& meta) {
+  try {
+    writeAtomically(
+        path, [&](const std::filesystem::path& aside) { CheckedArchive().writeTo(aside, grids, meta); });
+  } catch (const openvdb::Exception& error) {
+    throw fileError(path.string(), "cannot be written", openVdbMessage(error));
+  }
+}
+
+}  // namespace gnomon
