@@ -1,5 +1,5 @@
 // The non-linear rasterizer: the ray through a texel's centre meets the triangle or does not. It knows the parameterization by mapTexelRay,
-// mapHoldsTexel and mapDepth only; some compute shader has found a bound of the triangle's projection.
+// mapHoldsTexelAt and mapDepth only; some compute shader has found a bound of the triangle's projection.
 // kPass: 0 the first layer, 1 and 2 the second one, by blending and by peeling (src/shadow/map_image.h).
 layout(constant_id = 2) const int kMapKind = 0;  // kMap*
 #define GNOMON_MAP_KIND kMapKind
@@ -45,7 +45,7 @@ void main() {
   float along = 1.0f / dot(inverseNormal, ray.dir);
   float depth = mapDepth(map, layer, ray.dir * along);
   // As a near plane would: what is nearer than the near end is not in the map.
-  if (!isWithin(distances) || !(depth >= 0.0f) || !mapHoldsTexel(map, layer, texel)) discard;
+  if (!isWithin(distances) || !(depth >= 0.0f) || !mapHoldsTexelAt(map, gl_FragCoord.xy)) discard;
   if (kMasked == 1 && isHoleAt(distances)) discard;
   if (kPass == 2 && depth <= texelFetch(mapDepthLayers, ivec3(texel, layer), 0).x + tolerance) discard;
   gl_FragDepth = depth;

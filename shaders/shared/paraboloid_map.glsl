@@ -55,12 +55,13 @@ GNOMON_FN float paraboloidDepthSlope(ShadowMap map) { return 1.0f / (map.zFar - 
 
 GNOMON_FN float paraboloidDistance(ShadowMap map, float depth) { return depth * (map.zFar - map.zNear); }
 
-// Whether the disc touches the texel: the nearest point of its square lies within the rim. A millionth is in hand for the rounding of
-// paraboloidProject, so that every point it covers lies on a texel that is drawn. Lengths in half texels from the centre.
-GNOMON_FN bool paraboloidHoldsTexel(ShadowMap map, ivec2 texel) {
+// Whether the disc touches the texel around `center` (texels): the nearest point of its square lies within the rim. A millionth is in
+// hand for the rounding of paraboloidProject, so that every point it covers lies on a texel that is drawn. Lengths in half texels
+// from the layer's centre, without rounding.
+GNOMON_FN bool paraboloidHoldsTexelAt(ShadowMap map, vec2 center) {
   float side = float(map.side);
-  float x = max(abs(float(2 * texel.x + 1) - side) - 1.0f, 0.0f);
-  float y = max(abs(float(2 * texel.y + 1) - side) - 1.0f, 0.0f);
+  float x = max(abs(2.0f * center.x - side) - 1.0f, 0.0f);
+  float y = max(abs(2.0f * center.y - side) - 1.0f, 0.0f);
   return x * x + y * y <= side * side * 1.000001f;
 }
 

@@ -142,8 +142,10 @@ GNOMON_FN bool isBeyondRim(int side, int layer, Piece piece) {
 }
 
 // What must be wasted before a piece is cut in two: texels, and a share of the bound, since halves have more rim than the whole, and the
-// rasterizer shades it in blocks. Swept on three scenes on lavapipe, 64 to 4096 texels and 0 to 0.5: from 1024 on the choice is
-// within noise, 256 without a share costs a scene of small triangles a fifth more.
+// rasterizer shades it in blocks. Swept on lavapipe (processor time of two layers of 1774 x 1774 texels, medians of 9 interleaved
+// rounds, against no cuts), at 256, 1024 and 4096 texels: a level of one mesh 0.83, 0.83, 0.80; a furnished court 0.83, 0.78, 0.79; a
+// scene of small casters 0.97, 0.98, 1.02; instances of dense solids 0.98, 0.93, 0.95. So it is the cutting that pays, hardly
+// where it ends.
 const float kWastedTexels = 1024.0f;
 const float kWastedShare = 0.5f;
 

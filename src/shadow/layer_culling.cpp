@@ -9,32 +9,39 @@ namespace {
 // Of the coordinates of clip space: a point is projected to within a few ulps. What is let through is clipped
 // anyway.
 constexpr float kSlack = 1e-3f;
+// A hemisphere is drawn up to a circle of radius 1 + 6.5 / side on its plane (drawnRim), where what lies
+// behind the light is less than this over the side of the distance.
+constexpr float kRimTexels = 7.0f;
 
 }  // namespace
 
 LayerCulling::LayerCulling(const FittedMap& fitted, int first, int count) : frame_(fitted.frame) {
-  if (!fitted.shaders.projective) return;
   for (int layer = first; layer < first + count; ++layer) {
+    if (fitted.map.kind == glsl::kMapParaboloid)
+      hemispheres_.push_back({.axisZ = glsl::paraboloidAxisZ(layer),
+                              .backW = frame_.backW,
+                              .beyondRim = kRimTexels / static_cast<float>(fitted.map.side) + kSlack});
+    if (!fitted.shaders.projective) continue;
     const glm::mat4 rows = glm::transpose(fitted.map.mapLayers[layer].clipFromLight);
-    Layer made{.fromLight = {rows[0], rows[1], rows[3]}, .fromWorld = {}};
+    Projective made{.fromLight = {rows[0], rows[1], rows[3]}, .fromWorld = {}};
     for (int i = 0; i < 3; ++i)
       made.fromWorld[i] = frame_.rightW * made.fromLight[i].x + frame_.upW * made.fromLight[i].y +
                           frame_.backW * made.fromLight[i].z;
-    layers_.push_back(made);
+    projective_.push_back(made);
   }
 }
 
 // A box lies outside one side of the clip volume where +-x - w (+-y - w) is positive in all of it; over the
 // box such a sum is what it is at the centre, give or take the half size times its gradient.
-bool LayerCulling::mayShow(const Layer& layer, const glm::vec3& centerL, const glm::vec3& halfSizeW) const {
+bool LayerCulling::Projective::mayShow(const glm::vec3& centerL, const glm::vec3& halfSizeW) const {
   float center[3], sum = 0.0f;
   for (int i = 0; i < 3; ++i) {
-    center[i] = glm::dot(layer.fromLight[i], glm::vec4(centerL, 1.0f));
-    sum += std::abs(center[i]) + glm::dot(glm::abs(layer.fromWorld[i]), halfSizeW);
+    center[i] = glm::dot(fromLight[i], glm::vec4(centerL, 1.0f));
+    sum += std::abs(center[i]) + glm::dot(glm::abs(fromWorld[i]), halfSizeW);
   }
   for (int axis = 0; axis < 2; ++axis) {
     for (const float sign : {-1.0f, 1.0f}) {
-      const glm::vec3 gradient = sign * layer.fromWorld[axis] - layer.fromWorld[2];
+      const glm::vec3 gradient = sign * fromWorld[axis] - fromWorld[2];
       const float least = sign * center[axis] - center[2] - glm::dot(glm::abs(gradient), halfSizeW);
       if (least > kSlack * sum) return false;
     }
@@ -42,16 +49,23 @@ bool LayerCulling::mayShow(const Layer& layer, const glm::vec3& centerL, const g
   return true;
 }
 
+// Where the most forward of the box is behind the light by more than the rim shows, all of it is.
+bool LayerCulling::Hemisphere::mayShow(const glm::vec3& centerL, const glm::vec3& halfSizeW) const {
+  const float forward = axisZ * centerL.z + glm::dot(glm::abs(backW), halfSizeW);
+  return forward >= -beyondRim * (glm::length(centerL) + glm::length(halfSizeW));
+}
+
 bool LayerCulling::mayShow(const Bounds& boundsW) const {
   const glm::vec3 centerL = glsl::lightFromWorld(frame_, 0.5f * (boundsW.lower + boundsW.upper));
   const glm::vec3 halfSizeW = 0.5f * (boundsW.upper - boundsW.lower);
-  return layers_.empty() ||
-         std::ranges::any_of(layers_, [&](const Layer& layer) { return mayShow(layer, centerL, halfSizeW); });
+  const auto shows = [&](const auto& layer) { return layer.mayShow(centerL, halfSizeW); };
+  return (projective_.empty() && hemispheres_.empty()) || std::ranges::any_of(projective_, shows) ||
+         std::ranges::any_of(hemispheres_, shows);
 }
 
 std::vector<LayerCulling::Range> LayerCulling::rangesOf(const SceneBuffers& scene, const Draw& draw) const {
   if (!mayShow(draw.boundsW)) return {};
-  if (draw.partCount == 0 || layers_.empty()) return {{draw.firstIndex, draw.indexCount}};
+  if (draw.partCount == 0) return {{draw.firstIndex, draw.indexCount}};
   std::vector<Range> ranges;
   bool goesOn = false;
   for (uint32_t part = 0; part < draw.partCount; ++part) {

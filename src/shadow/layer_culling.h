@@ -1,5 +1,5 @@
 #pragma once
-// What of a scene some projective layers may show, so that the rest is not sent to them: whole draws, and of
+// What of a scene some layers may show, so that the rest is not sent to them: whole draws, and of
 // large draws the parts that SceneBuffers cuts them in. Nothing that a layer shows is left out.
 
 #include "scene/scene_buffers.h"
@@ -11,7 +11,8 @@ namespace gnomon {
 
 class LayerCulling {
  public:
-  // For layers first .. first + count - 1 together. Layers that are not projective may show everything.
+  // For layers first .. first + count - 1 together: projective ones, which have four sides, or hemispheres of
+  // a paraboloid. Others may show everything.
   LayerCulling(const FittedMap& fitted, int first, int count);
 
   bool mayShow(const Bounds& boundsW) const;
@@ -25,14 +26,21 @@ class LayerCulling {
  private:
   // Rows x, y and w of clip space, as functions of a point in the light's frame and in the world (but for a
   // constant).
-  struct Layer {
+  struct Projective {
     glm::vec4 fromLight[3];
     glm::vec3 fromWorld[3];
+    bool mayShow(const glm::vec3& centerL, const glm::vec3& halfSizeW) const;
   };
-  bool mayShow(const Layer& layer, const glm::vec3& centerL, const glm::vec3& halfSizeW) const;
+  struct Hemisphere {
+    float axisZ;      // of L: +1 or -1
+    glm::vec3 backW;  // L's z
+    float beyondRim;  // how far behind the light it shows, over the distance
+    bool mayShow(const glm::vec3& centerL, const glm::vec3& halfSizeW) const;
+  };
 
   glsl::LightFrame frame_;
-  std::vector<Layer> layers_;
+  std::vector<Projective> projective_;
+  std::vector<Hemisphere> hemispheres_;
 };
 
 }  // namespace gnomon

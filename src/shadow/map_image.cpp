@@ -175,13 +175,16 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
   const LayerPush push{.layer = layer.index};
   gpu::RenderTargets targets = layer.targets;
   bool cleared = false;
+  const LayerCulling culling(layer.map.fitted_, layer.index, layer.count);
   for (const bool masked : {false, true}) {
     std::vector<BoundedDraws::Piece> pieces;
     for (const Draw& d : scene.draws) {
       if (d.masked != masked) continue;
       const Group group = groupOf(d);
       const int front = group == Group::Sheets ? 0 : group == Group::Solids ? 1 : -1;
-      pieces.push_back({d.firstIndex / 3, d.indexCount / 3, d.instance, backFaces ? -front : front});
+      for (const LayerCulling::Range& range : culling.rangesOf(scene, d))
+        pieces.push_back(
+            {range.firstIndex / 3, range.indexCount / 3, d.instance, backFaces ? -front : front});
     }
     for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
       bounded_.record(commands, scene, layer.map.uniforms(), shaders.bounds, layer.index, batch);

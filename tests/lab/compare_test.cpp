@@ -164,6 +164,35 @@ TEST(LabelPicture, PaintsEachLabelInItsOwnColor) {
   EXPECT_EQ(colors.size(), 8u);
 }
 
+TEST(ResultsJson, SaysOfAPointLightsMapWhatIsNotDefault) {
+  const SetupOptions setup{.scene = "contact", .size = "64"};
+  const Session session({.validation = true}, setup);
+  CompareOptions options;
+  options.maps = parseMaps("cube,paraboloid");
+  options.biases = parseBiases("adaptive");
+  options.mapSide = 64;
+  options.repeats = 1;
+  const auto paramsOf = [&](const MapOptions& mapOptions) {
+    options.mapOptions = mapOptions;
+    const Json rows =
+        Json::parse(resultsJson(session, setup, compare(session, options), "gnomon compare")).at("rows");
+    return std::pair(rows[0].at("params"), rows[1].at("params"));
+  };
+  const auto [cube, paraboloid] = paramsOf({.cubeDepth = CubeDepth::Radial,
+                                            .cubePasses = LayerPasses::Each,
+                                            .paraboloidRaster = ParaboloidRaster::Vertex,
+                                            .paraboloidAxisW = glm::dvec3(0.0, 0.6, 0.8)});
+  EXPECT_EQ(cube.at("cube_depth"), "radial");
+  EXPECT_EQ(cube.at("cube_passes"), "six");
+  EXPECT_FALSE(cube.contains("paraboloid_raster"));
+  EXPECT_EQ(paraboloid.at("paraboloid_raster"), "vertex");
+  EXPECT_EQ(paraboloid.at("paraboloid_axis"), "0,0.6,0.8");
+  EXPECT_FALSE(paraboloid.contains("cube_depth"));
+  const auto [plainCube, plainParaboloid] = paramsOf({});
+  for (const char* name : {"cube_depth", "cube_passes", "paraboloid_raster", "paraboloid_axis"})
+    EXPECT_FALSE(plainCube.contains(name) || plainParaboloid.contains(name)) << name;
+}
+
 TEST(DrawText, MarksPixelsWithinItsLine) {
   Image8 image(200, 20, 3);
   drawText(image, 2, 3, 1, "acne 12", {255, 255, 255});

@@ -157,8 +157,8 @@ TEST_P(SeamsTest, ShowNoMoreErrorThanElsewhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SeamsTest, ::testing::Values("corner", "atrium", "level_rpg3dm2.glb"),
-                         [](const auto& info) {
-                           const std::string name = info.param;
+                         [](const auto& tested) {
+                           const std::string name = tested.param;
                            return name.substr(0, name.find('.'));
                          });
 

@@ -50,27 +50,6 @@ TEST_F(CubePasses, OnePassGivesTheLayersOfSixOrIsRefusedByName) {
   std::printf("one pass: %zu times equal, %zu times refused\n", equal, refused);
 }
 
-// What is not sent to a face changes nothing on it.
-TEST_F(CubePasses, FacesDrawnInPartsEqualFacesThatAreSentEverything) {
-  for (const char* scene : {"crowd:20000", "double-torus", "factory"}) {
-    World world = test::openWorld(device(), openScene(scene), glm::dvec3(0.3, 1.1, -0.2));
-    std::vector<Layers> cut, whole;
-    for (std::vector<Layers>* layers : {&cut, &whole}) {
-      if (layers == &whole)
-        for (Draw& d : world.buffers.draws) {
-          d.partCount = 0;
-          d.boundsW = {.lower = glm::vec3(-1e6f), .upper = glm::vec3(1e6f)};
-        }
-      for (const CubeDepth depth : {CubeDepth::Hyperbolic, CubeDepth::Radial})
-        layers->push_back(draw(world, depth, LayerPasses::Each, MapContent::TwoLayers, CullMode::None));
-    }
-    for (size_t i = 0; i < cut.size(); ++i) {
-      EXPECT_EQ(cut[i].z1, whole[i].z1) << scene;
-      EXPECT_EQ(cut[i].z2, whole[i].z2) << scene;
-    }
-  }
-}
-
 // With something else in place of both ways to draw.
 TEST_F(CubePasses, TheCheckSeesWhatDiffersAndWhatIsFaster) {
   const World world = test::openWorld(device(), findGeneratedScene("contact")->make());

@@ -144,6 +144,33 @@ TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
   }
 }
 
+// What is not sent to a layer changes nothing on it (src/shadow/layer_culling.h).
+TEST_F(RenderedLayers, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
+  std::vector<Kind> all = kindsOfAllRasters();
+  all.push_back(
+      {"paraboloid by vertex", paraboloidParameterization(), {.paraboloidRaster = ParaboloidRaster::Vertex}});
+  for (const char* scene : {"crowd:50000", "double-torus", "sheets"}) {
+    World world = test::openWorld(device(), openScene(scene), glm::dvec3(0.3, 1.1, -0.2));
+    ASSERT_FALSE(world.buffers.partBoundsW.empty()) << scene;
+    for (const Kind& kind : all) {
+      const FittedMap fitted = test::fitWhole(world, kind.map, 96, kind.options);
+      const auto drawAll = [&] {
+        return test::drawLayers(device(), world, fitted, CullMode::None, MapContent::TwoLayers);
+      };
+      const Layers parts = drawAll();
+      std::vector<Draw> cut = world.buffers.draws;
+      for (Draw& draw : world.buffers.draws) {
+        draw.partCount = 0;
+        draw.boundsW = {.lower = glm::vec3(-1e6f), .upper = glm::vec3(1e6f)};
+      }
+      const Layers whole = drawAll();
+      std::swap(cut, world.buffers.draws);
+      EXPECT_EQ(parts.z1, whole.z1) << scene << ", " << kind.name;
+      EXPECT_EQ(parts.z2, whole.z2) << scene << ", " << kind.name;
+    }
+  }
+}
+
 // Leaving the back faces of solids out uncovers silhouettes and nothing else, whichever way a layer turns the
 // winding.
 TEST_F(RenderedLayers, CullingSolidsChangesOnlySilhouettes) {
