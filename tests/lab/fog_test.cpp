@@ -144,7 +144,8 @@ TEST_F(FogTest, AThickerMediumDimsWhatStandsInIt) {
       for (int c = 0; c < 3; ++c) {
         const float before = clear.surface.at(x, y)[c], after = foggy.surface.at(x, y)[c];
         if (before > 0.0f) {
-          EXPECT_NEAR(after / before, std::exp(-(c == 1 ? 0.2 : 0.1) * path), 1e-4);
+          // A surface seen at its triangle's very edge lies aside of the pixel's ray.
+          EXPECT_NEAR(after / before, std::exp(-(c == 1 ? 0.2 : 0.1) * path), 1e-3);
           ++lit;
         }
       }
