@@ -182,6 +182,11 @@ TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
                 "the camera sees no surface");
   expectMistake("render contact --size 16 --map-size 16 -o /proc/nowhere/a.png", 1, "/proc/nowhere");
   expectMistake("scene nothing -o @/a.glb", 1, "nothing");
+  expectMistake("scene --density steam -o @/a.vdb", 2, "choose of puff, fog, turbulence");
+  expectMistake("scene --density puff", 2, "-o FILE.vdb");
+  expectMistake("scene --density puff -o @/a.glb", 2, "write a .vdb");
+  expectMistake("scene grate --density puff -o @/a.vdb", 2, "--for grate");
+  expectMistake("scene --density puff --for nothing -o @/a.vdb", 1, "nothing");
   expectMistake("compare contact --shader-dir @/none --size 16", 1, "none");
   EXPECT_EQ(fileCount(), 0u);
 }
@@ -255,6 +260,11 @@ TEST_F(CliTest, VsvSaysWhatIsWrong) {
 
 TEST_F(CliTest, SceneListsAndInfoTells) {
   const Result scenes = run("scene");
+  for (const char* density : {"puff", "fog", "turbulence"})
+    EXPECT_NE(scenes.out.find(density), std::string::npos) << density;
+  const Result puff = run("scene --density puff --for contact -o @/puff.vdb");
+  EXPECT_EQ(puff.exitCode, 0) << puff.err;
+  EXPECT_NE(puff.out.find("voxels of"), std::string::npos);
   for (const char* name :
        {"lshape", "double-torus", "factory", "atrium", "corner", "sheets", "contact", "slope", "crowd"})
     EXPECT_NE(scenes.out.find(name), std::string::npos) << name;

@@ -15,6 +15,9 @@ struct Sample {
   const char* name;
   const char* scene;
 };
+void PrintTo(const Sample& sample, std::ostream* out) {  // part of the test's name
+  *out << sample.name;
+}
 class Samples : public ::testing::TestWithParam<Sample> {};
 
 // On lavapipe the pictures are equal to the byte; another device rounds otherwise, and a shadow test may fall

@@ -68,6 +68,32 @@ TEST_F(MediaPassTest, WithNothingInTheWayAllWaysGiveTheClosedForm) {
   }
 }
 
+// From the eye to its end, and in the light map's depths.
+TEST_F(MediaPassTest, AFittedVolumeHoldsEveryViewRay) {
+  std::vector<MediaSetup> setups = {test::mediaSetup("grate"), test::mediaSetup("atrium"),
+                                    test::mediaSetup("contact")};
+  for (const Place& place : kPlaces)
+    setups.push_back(test::emptyMediaSetup(place.eyeW, place.targetW, place.lightW));
+  for (const MediaSetup& setup : setups) {
+    const MediaWorld world(device(), setup);
+    const FittedVolume& fitted = world.volume->fitted();
+    const glsl::EpipolarGrid& grid = fitted.grid;
+    double farthest = 0.0;
+    for (const glm::dvec3& end : world.endsW)
+      farthest = std::max(farthest, glm::length(end - setup.light.positionW));
+    EXPECT_GE(fitted.columns.zFar, farthest * (1.0 - 1e-6));
+    for (size_t i = 0; i + 1 < world.endsW.size(); ++i) {
+      const glsl::EpipolarPoint end = glsl::epipolarFromLight(
+          grid.eyeDistance, glsl::lightFromWorld(fitted.columns.frame, glm::vec3(world.endsW[i])));
+      ASSERT_GE(end.alpha, grid.alphaLower);
+      ASSERT_LE(end.alpha, glsl::alphaUpper(grid));
+      ASSERT_LE(glsl::thetaSteps(grid, end.theta), static_cast<float>(grid.thetaCount));
+      ASSERT_LE(end.phi, glsl::phiUpper(grid));
+      ASSERT_EQ(grid.phiLower, 0.0f);
+    }
+  }
+}
+
 // However thick, forward or backward, and whichever voxels.
 TEST_F(MediaPassTest, OtherMediaAndOtherVolumesGiveTheClosedFormToo) {
   struct Case {
