@@ -245,6 +245,11 @@ TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
   expectMistake("fog grate --light 0,1,5 --camera eye:0,1,5,target:0,0,0 --size 16", 1,
                 "stands at the camera's eye");
   expectMistake("scene nothing -o @/a.glb", 1, "nothing");
+  expectMistake("scene --density steam -o @/a.vdb", 2, "choose of puff, fog, turbulence");
+  expectMistake("scene --density puff", 2, "-o FILE.vdb");
+  expectMistake("scene --density puff -o @/a.glb", 2, "write a .vdb");
+  expectMistake("scene grate --density puff -o @/a.vdb", 2, "--for grate");
+  expectMistake("scene --density puff --for nothing -o @/a.vdb", 1, "nothing");
   expectMistake("compare contact --shader-dir @/none --size 16", 1, "none");
   EXPECT_EQ(fileCount(), 0u);
 }
@@ -318,6 +323,11 @@ TEST_F(CliTest, VsvSaysWhatIsWrong) {
 
 TEST_F(CliTest, SceneListsAndInfoTells) {
   const Result scenes = run("scene");
+  for (const char* density : {"puff", "fog", "turbulence"})
+    EXPECT_NE(scenes.out.find(density), std::string::npos) << density;
+  const Result puff = run("scene --density puff --for contact -o @/puff.vdb");
+  EXPECT_EQ(puff.exitCode, 0) << puff.err;
+  EXPECT_NE(puff.out.find("voxels of"), std::string::npos);
   for (const char* name :
        {"lshape", "double-torus", "factory", "atrium", "corner", "sheets", "contact", "slope", "crowd"})
     EXPECT_NE(scenes.out.find(name), std::string::npos) << name;

@@ -11,17 +11,24 @@
 namespace gnomon {
 namespace {
 
-class Samples : public ::testing::TestWithParam<const char*> {};
+struct Sample {
+  const char* name;
+  const char* scene;
+};
+void PrintTo(const Sample& sample, std::ostream* out) {  // part of the test's name
+  *out << sample.name;
+}
+class Samples : public ::testing::TestWithParam<Sample> {};
 
 // On lavapipe the pictures are equal to the byte; another device rounds otherwise, and a shadow test may fall
 // to the other side in half a percent of the pixels.
 TEST_P(Samples, DrawsItsPicture) {
   const test::TemporaryFolder folder;
-  const std::string name = GetParam();
+  const std::string name = GetParam().name;
   const std::filesystem::path picture = folder.path() / "picture.png";
   const std::filesystem::path messages = folder.path() / "stderr";
-  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/" + name + " contact " + picture.string() +
-                              " 2>" + messages.string() + " >/dev/null";
+  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/" + name + " " + GetParam().scene + " " +
+                              picture.string() + " 2>" + messages.string() + " >/dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0) << readFile(messages);
   EXPECT_EQ(readFile(messages), "");
   const std::filesystem::path golden = std::filesystem::path(GNOMON_TEST_DIR) / "golden" / (name + ".png");
@@ -36,8 +43,11 @@ TEST_P(Samples, DrawsItsPicture) {
   EXPECT_LE(different, lavapipe ? size_t{0} : drawn.values.size() / 200);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Samples, ::testing::Values("01_point_light_cube", "02_point_light_paraboloid"),
-                         [](const auto& sample) { return std::string(sample.param); });
+INSTANTIATE_TEST_SUITE_P(All, Samples,
+                         ::testing::Values(Sample{"01_point_light_cube", "contact"},
+                                           Sample{"02_point_light_paraboloid", "contact"},
+                                           Sample{"03_lamp_in_fog", "grate"}),
+                         [](const auto& sample) { return std::string(sample.param.name); });
 
 TEST(SampleMistakes, AMissingSceneIsOneLine) {
   const test::TemporaryFolder folder;
