@@ -31,8 +31,9 @@ struct Medium {
 // light is turned. The lower bound is what the sum is where light goes straight on, and rounding may not pass it.
 GNOMON_FN float phaseFunction(float g, float cosTurn) {
   float away = 1.0f - abs(g);
-  float x = max(1.0f + g * g - 2.0f * g * cosTurn, away * away);
-  return (1.0f - g * g) / (4.0f * kPi * (x * sqrt(x)));
+  GNOMON_PRECISE float x = max(1.0f + g * g - 2.0f * g * cosTurn, away * away);
+  GNOMON_PRECISE float phase = (1.0f - g * g) / (4.0f * kPi * (x * sqrt(x)));
+  return phase;
 }
 
 GNOMON_FN vec3 extinction(Medium medium) { return medium.sigmaS + medium.sigmaA; }

@@ -27,7 +27,7 @@ struct FogFlags {
   MethodFlags method;  // --map-size, --cull and those of volumes
   std::string out, json;
   bool truth = false, noCache = false;
-  double bound = 1e-3;
+  std::optional<double> bound;
   std::string integrators;
   std::string steps = "32,128,512";
   std::string marchMap = "cube";
@@ -41,6 +41,9 @@ struct FogFlags {
   int frames = 0;
   std::string move;
 };
+
+// Of the reference. Steps through a density cost four times as much for each halving.
+constexpr double kBound = 0.001, kDensityBound = 0.003;
 
 constexpr int kMostSteps = 65536;
 
@@ -152,9 +155,10 @@ FogOptions fogOptions(const FogFlags& flags) {
   options.map.volumeSize = parseVolumeSize(flags.method.vsvSize);
   options.map.volumeSource = parseVolumeSource(flags.method.vsvSource);
   options.map.volumeFit = parseVolumeFit(flags.method.vsvFit);
-  if (!(flags.bound >= 1e-6 && flags.bound <= 1.0))
-    throw UsageError(fmt::format("--bound {}: a share of the picture's mean, 1e-6..1", flags.bound));
-  options.reference.bound = flags.bound;
+  options.reference.bound = flags.bound.value_or(flags.density.empty() ? kBound : kDensityBound);
+  if (!(options.reference.bound >= 1e-6 && options.reference.bound <= 1.0))
+    throw UsageError(
+        fmt::format("--bound {}: a share of the picture's mean, 1e-6..1", options.reference.bound));
   if (flags.move.empty() != (flags.frames == 0)) throw UsageError("--frames and --move need each other");
   if (!flags.move.empty()) options.motion = parseMotion(flags.move, flags.frames);
   if (options.motion && !folder && !flags.truth)
@@ -236,8 +240,9 @@ Run addFogVerb(CLI::App& app) {
   verb->add_option("--json", flags->json, "write results.json here");
   verb->add_flag("--truth", flags->truth, "trace the reference, and score each way to integrate against it");
   verb->add_option("--bound", flags->bound,
-                   "what doubling a pixel's samples may still change the reference by, of the picture's mean")
-      ->capture_default_str();
+                   fmt::format("what doubling a pixel's samples may still change the reference by, of the "
+                               "picture's mean; default: {:g}, in a density {:g}",
+                               kBound, kDensityBound));
   verb->add_flag("--no-cache", flags->noCache, "neither read nor keep a reference of an earlier run");
   verb->add_option(
       "--integrators", flags->integrators,

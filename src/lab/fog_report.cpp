@@ -51,7 +51,7 @@ std::string shareText(const std::optional<double>& share) {
 // Of a row, with or without builds: both measures in one line.
 std::string termsText(const FogResult& result) {
   if (result.equalTerms.empty()) return "";
-  std::string text = fmt::format("{:<35}{:>26}{:>30}\n{:<35}{:>14}{:>12}{:>16}{:>12}\n", "against march",
+  std::string text = fmt::format("{:<35}{:>28}{:>32}\n{:<35}{:>16}{:>12}{:>20}{:>12}\n", "against march",
                                  "times faster at equal error", "times less error at equal time", "",
                                  "rel rmse", "rmse 99%", "rel rmse", "rmse 99%");
   const auto find = [&](size_t row, bool withBuild, ErrorMeasure measure, bool faster) -> std::string {
@@ -63,7 +63,7 @@ std::string termsText(const FogResult& result) {
   for (size_t row = 0; row < result.rows.size(); ++row) {
     for (const bool withBuild : {true, false}) {
       if (result.rows[row].method.integrator == Integrator::March) continue;
-      text += fmt::format("{:<13}{:<22}{:>14}{:>12}{:>16}{:>12}\n", mediaMethodName(result.rows[row].method),
+      text += fmt::format("{:<13}{:<22}{:>16}{:>12}{:>20}{:>12}\n", mediaMethodName(result.rows[row].method),
                           withBuild ? "map, table, integral" : "integral alone",
                           find(row, withBuild, ErrorMeasure::RelRmse, true),
                           find(row, withBuild, ErrorMeasure::RelRmse99, true),

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 
 #include <glm/gtx/component_wise.hpp>
 
@@ -33,10 +34,11 @@ constexpr int kSamplesForMean = 16;
 constexpr double kEdgeForMean = 0x1p-12;  // of the ray's phi
 constexpr double kMeanReserve = 0.9;
 
-// Steps along rays through a density, in voxels, before the first doubling; and samples of visibility a cell
-// of phi.
-constexpr double kFirstStepVoxels = 4.0;
-constexpr int kSamplesPerCell = 8;
+// Steps along rays through a density, in voxels, and cells of phi, before the first halving. Trilinear values
+// bend at every voxel, so that the second halving is the first to say much.
+constexpr double kFirstStepVoxels = 2.0;
+constexpr int kFirstCells = 32;
+constexpr int kMostHalvings = 5;
 
 constexpr int kQuietDoublings = 2;
 
@@ -65,6 +67,7 @@ struct SampledRay {
   ScatteringRay ray;
   std::vector<double> strata;             // the sample of each, as a share of the ray's phi
   std::vector<VisibilitySample> samples;  // by phi
+  std::optional<DensityProfile> profile;  // of a density
 };
 
 // Everything but the pixels' own rays.
@@ -134,12 +137,20 @@ class Tile {
     bisect();
   }
 
+  // The steps through a density, halved that often.
+  void setSteps(int halvings) {
+    if (task_.medium.density == nullptr) return;
+    const double step =
+        kFirstStepVoxels * task_.medium.density->voxelMetres() / static_cast<double>(1 << halvings);
+    for (SampledRay& ray : rays_) ray.profile.emplace(ray.ray, task_.medium, step, kFirstCells << halvings);
+  }
+
   // cd/m^2, one a pixel.
-  std::vector<glm::dvec3> radiance(int level) const {
+  std::vector<glm::dvec3> radiance() {
     std::vector<glm::dvec3> sums(pixels_.size(), glm::dvec3(0.0));
-    for (const SampledRay& ray : rays_) {
+    for (SampledRay& ray : rays_) {
       const auto pixel = std::ranges::find(pixels_, ray.pixel) - pixels_.begin();
-      sums[static_cast<size_t>(pixel)] += scatter(ray, level);
+      sums[static_cast<size_t>(pixel)] += scatter(ray);
     }
     return sums;
   }
@@ -280,14 +291,10 @@ class Tile {
     return pieces;
   }
 
-  glm::dvec3 scatter(const SampledRay& ray, int level) const {
+  glm::dvec3 scatter(SampledRay& ray) const {
     const std::vector<LitPiece> pieces = litPieces(ray);
-    if (task_.medium.density == nullptr)
-      return scatterHomogeneous(ray.ray, pieces, task_.medium, task_.tolerance);
-    const double step =
-        kFirstStepVoxels * task_.medium.density->voxelMetres() / static_cast<double>(1 << level);
-    return scatterHeterogeneous(ray.ray, pieces, task_.medium, step,
-                                static_cast<int>(ray.strata.size()) / kSamplesPerCell);
+    return ray.profile ? ray.profile->scatter(ray.ray, task_.medium, pieces)
+                       : scatterHomogeneous(ray.ray, pieces, task_.medium, task_.tolerance);
   }
 
   const Task& task_;
@@ -297,24 +304,40 @@ class Tile {
   uint64_t traced_ = 0;
 };
 
-// Refines one tile to the bound (cd/m^2), and takes its pixels and its share of the summary.
-void refineTile(Tile& tile, double bound, const MediaReferenceOptions& options,
+std::vector<double> changesOf(std::span<const glm::dvec3> before, std::span<const glm::dvec3> after) {
+  std::vector<double> changes(before.size());
+  for (size_t i = 0; i < changes.size(); ++i) changes[i] = glm::compMax(glm::abs(after[i] - before[i]));
+  return changes;
+}
+
+// Refines one tile to the bound (cd/m^2), and takes its pixels and its share of the summary: first the steps
+// through a density, with the first samples of visibility, then visibility.
+void refineTile(Tile& tile, bool hasDensity, double bound, const MediaReferenceOptions& options,
                 std::vector<glm::dvec3>& radiance, MediaReference& summary) {
   tile.begin(options.firstSamples);
-  std::vector<glm::dvec3> values = tile.radiance(0);
-  std::vector<double> changes(values.size(), 0.0);
+  tile.setSteps(0);
+  std::vector<glm::dvec3> values = tile.radiance();
+  std::vector<double> changes(values.size(), 0.0), stepChanges(values.size(), 0.0);
+  for (int halvings = 1; hasDensity && halvings <= kMostHalvings; ++halvings) {
+    tile.setSteps(halvings);
+    const std::vector<glm::dvec3> next = tile.radiance();
+    stepChanges = changesOf(values, next);
+    values = next;
+    if (halvings > 1 && *std::ranges::max_element(stepChanges) <= bound) break;
+  }
   int doublings = 0;
-  for (int quiet = 0; quiet < kQuietDoublings && doublings < options.mostDoublings;) {
+  for (int quiet = 0; quiet < kQuietDoublings && doublings < options.mostDoublings; ++doublings) {
     tile.refine();
-    const std::vector<glm::dvec3> next = tile.radiance(++doublings);
-    for (size_t i = 0; i < values.size(); ++i) changes[i] = glm::compMax(glm::abs(next[i] - values[i]));
+    const std::vector<glm::dvec3> next = tile.radiance();
+    changes = changesOf(values, next);
     values = next;
     quiet = *std::ranges::max_element(changes) > bound ? 0 : quiet + 1;
   }
   for (size_t i = 0; i < values.size(); ++i) {
+    const double change = std::max(changes[i], stepChanges[i]);
     radiance[tile.pixels()[i]] = values[i];
-    summary.worstChange = std::max(summary.worstChange, changes[i]);
-    summary.atLimit += changes[i] > bound ? 1 : 0;
+    summary.worstChange = std::max(summary.worstChange, change);
+    summary.atLimit += change > bound ? 1 : 0;
   }
   summary.doublings = std::max(summary.doublings, doublings);
   summary.rays += tile.traced();
@@ -361,7 +384,8 @@ MediaReference computeMediaReference(const Tracer& tracer, std::span<const Media
   forTiles(camera, "its mean", [&](int x, int y) {
     Tile tile(task, x, y);
     tile.begin(kSamplesForMean);
-    const std::vector<glm::dvec3> values = tile.radiance(0);
+    tile.setSteps(0);
+    const std::vector<glm::dvec3> values = tile.radiance();
     for (size_t i = 0; i < values.size(); ++i) radiance[tile.pixels()[i]] = values[i];
   });
   if (const double mean = kMeanReserve * meanOf(radiance); mean > 0.0) {
@@ -370,7 +394,7 @@ MediaReference computeMediaReference(const Tracer& tracer, std::span<const Media
     forTiles(camera, "doubling", [&](int x, int y) {
       Tile tile(task, x, y);
       MediaReference own;
-      refineTile(tile, options.bound * mean, options, radiance, own);
+      refineTile(tile, medium.density != nullptr, options.bound * mean, options, radiance, own);
       const std::lock_guard lock(merging);  // maxima and sums of integers: in any order the same
       reference.worstChange = std::max(reference.worstChange, own.worstChange);
       reference.doublings = std::max(reference.doublings, own.doublings);

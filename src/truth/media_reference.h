@@ -44,13 +44,14 @@ struct MediaReferenceOptions {
 };
 
 struct MediaReference {
-  ImageF inScattered;        // rgb, cd/m^2
-  double mean = 0.0;         // over pixels and channels
-  double bound = 0.0;        // as asked for
-  double worstChange = 0.0;  // what the last doubling of any pixel changed a channel of it by, of the mean
-  size_t atLimit = 0;        // pixels that the last doubling allowed changed by more than the bound
-  int doublings = 0;         // the most of any pixel
-  uint64_t rays = 0;         // towards lights
+  ImageF inScattered;  // rgb, cd/m^2
+  double mean = 0.0;   // over pixels and channels
+  double bound = 0.0;  // as asked for
+  double worstChange =
+      0.0;             // what the last doubling (or halving of steps) changed any channel by, of the mean
+  size_t atLimit = 0;  // pixels that the last doubling allowed changed by more than the bound
+  int doublings = 0;   // the most of any pixel
+  uint64_t rays = 0;   // towards lights
   double ms = 0.0;
 };
 
@@ -61,7 +62,8 @@ std::vector<double> viewRayEnds(const glsl::CameraView& camera, const Receivers&
 // along phi, the angle at the light (equiangular sampling: Kulla and Fajardo, "Importance Sampling Techniques
 // for Path Tracing in Participating Media", EGSR 2012), and bisected between neighbours that differ. A tile's
 // samples are doubled until two doublings in a row change none of its pixels by more than the bound: one
-// alone is easily quiet because both passed a thin shaft by. All cores; the same whatever their number. Shows
+// alone is easily quiet because both passed a thin shaft by. Steps through a density are halved, too, until
+// that changes none by more. All cores; the same whatever their number. Shows
 // progress.
 MediaReference computeMediaReference(const Tracer& tracer, std::span<const MediaLight> lights,
                                      const glsl::CameraView& camera, std::span<const double> ends,

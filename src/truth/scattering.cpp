@@ -117,7 +117,7 @@ Stretch cutToBounds(const RayD& ray, double end, const Bounds& bounds) {
 
 // Distances that cut the ray's stretch into equal steps and into equal angles, both at once: density varies
 // with the one, the light with the other.
-std::vector<double> cellBounds(const ScatteringRay& ray, double step, int cells) {
+std::vector<double> nodeDistances(const ScatteringRay& ray, double step, int cells) {
   std::vector<double> at;
   const int steps = std::max(1, static_cast<int>(std::ceil((ray.sTo - ray.sFrom) / step)));
   for (int i = 0; i <= steps; ++i) at.push_back(ray.sFrom + (ray.sTo - ray.sFrom) * i / steps);
@@ -228,27 +228,40 @@ double densityBetween(const DensityField& density, const glm::dvec3& fromW, cons
   return steps > 0 ? sum * (cut.to - cut.from) / steps : 0.0;
 }
 
-glm::dvec3 scatterHeterogeneous(const ScatteringRay& ray, std::span<const LitPiece> pieces,
-                                const MediumModel& medium, double step, int cells) {
-  if (pieces.empty()) return glm::dvec3(0.0);
-  const DensityField& density = *medium.density;
-  const glm::dvec3 sigmaT = medium.sigmaS + medium.sigmaA;
-  const std::vector<double> at = cellBounds(ray, step, cells);
+DensityProfile::DensityProfile(const ScatteringRay& ray, const MediumModel& medium, double step, int cells)
+    : step_(step) {
+  double towardsEye = 0.0;
+  for (const double s : nodeDistances(ray, step, cells)) {
+    Node node{.s = s, .phi = ray.phiAt(s), .density = medium.density->at(ray.view.origin + ray.view.dir * s)};
+    if (!nodes_.empty()) towardsEye += 0.5 * (nodes_.back().density + node.density) * (s - nodes_.back().s);
+    node.towardsEye = towardsEye;
+    nodes_.push_back(node);
+  }
+}
+
+const glm::dvec3& DensityProfile::valueAt(Node& node, const ScatteringRay& ray,
+                                          const MediumModel& medium) const {
+  if (node.known) return node.value;
+  node.known = true;
+  if (!(node.density > 0.0)) return node.value;
+  const Place place = placeAt(ray, medium.g, node.phi);
+  const double towardsLight =
+      densityBetween(*medium.density, ray.light.positionW, ray.view.origin + ray.view.dir * node.s, step_);
+  node.value = transmittance(medium.sigmaS + medium.sigmaA, node.towardsEye + towardsLight) *
+               (node.density * place.phase);
+  return node.value;
+}
+
+glm::dvec3 DensityProfile::scatter(const ScatteringRay& ray, const MediumModel& medium,
+                                   std::span<const LitPiece> pieces) {
   glm::dvec3 sum(0.0);
-  double towardsEye = 0.0;  // density times metres, up to the cell
   size_t piece = 0;
-  for (size_t i = 0; i + 1 < at.size(); ++i) {
-    const double from = at[i], to = at[i + 1];
-    const Overlap lit = overlap(pieces, piece, ray.phiAt(from), ray.phiAt(to));
-    const double here = density.at(ray.view.origin + ray.view.dir * (0.5 * (from + to)));
-    if (here > 0.0 && lit.length > 0.0) {
-      const Place place = placeAt(ray, medium.g, lit.center);
-      const double towardsLight =
-          densityBetween(density, ray.light.positionW, ray.view.origin + ray.view.dir * place.s, step);
-      const double depth = towardsEye + here * (place.s - from) + towardsLight;
-      sum += transmittance(sigmaT, depth) * (here * place.phase * lit.length);
-    }
-    towardsEye += here * (to - from);
+  for (size_t i = 0; i + 1 < nodes_.size() && !pieces.empty(); ++i) {
+    Node &near = nodes_[i], &far = nodes_[i + 1];
+    const Overlap lit = overlap(pieces, piece, near.phi, far.phi);
+    if (!(lit.length > 0.0) || (near.density == 0.0 && far.density == 0.0)) continue;
+    const double share = (lit.center - near.phi) / (far.phi - near.phi);
+    sum += glm::mix(valueAt(near, ray, medium), valueAt(far, ray, medium), share) * lit.length;
   }
   return sum * medium.sigmaS * ray.light.intensity / ray.aside;
 }

@@ -45,10 +45,29 @@ struct LitPiece {
 glm::dvec3 scatterHomogeneous(const ScatteringRay& ray, std::span<const LitPiece> pieces,
                               const MediumModel& medium, double tolerance);
 
-// Of a medium with a density: the ray in steps of at most `step` metres and at least `cells` of phi, and
-// towards the light in the same.
-glm::dvec3 scatterHeterogeneous(const ScatteringRay& ray, std::span<const LitPiece> pieces,
-                                const MediumModel& medium, double step, int cells);
+// What scatters along a ray through a density, at nodes: between two of them it is taken for linear in phi. A
+// node is worked out when light first reaches it, so that other pieces of the same ray cost next to nothing.
+class DensityProfile {
+ public:
+  // Nodes at most `step` metres apart, and at least `cells` of equal phi between them; as fine towards the
+  // light.
+  DensityProfile(const ScatteringRay& ray, const MediumModel& medium, double step, int cells);
+
+  // cd/m^2. The ray and the medium are those of the constructor.
+  glm::dvec3 scatter(const ScatteringRay& ray, const MediumModel& medium, std::span<const LitPiece> pieces);
+
+ private:
+  struct Node {
+    double s = 0.0, phi = 0.0;
+    double density = 0.0, towardsEye = 0.0;  // the density's integral over the metres to the eye
+    bool known = false;
+    glm::dvec3 value{0.0};  // of the integrand over phi, without sigmaS, intensity and aside
+  };
+  const glm::dvec3& valueAt(Node& node, const ScatteringRay& ray, const MediumModel& medium) const;
+
+  double step_ = 0.0;  // metres
+  std::vector<Node> nodes_;
+};
 
 // The most that a radian of phi can give, in any channel: cd/m^2.
 double largestShare(const ScatteringRay& ray, const MediumModel& medium);

@@ -97,6 +97,51 @@ TEST_F(CliTest, AReportOfNothingOrOfGarbageIsRefusedInOneLine) {
   EXPECT_EQ(fileCount(), 1u);
 }
 
+TEST_F(CliTest, FogWritesATableResultsPicturesAndAPage) {
+  const std::string small = " --size 48 --vsv-size 128x128x128 --map-size 128 --repeats 1 ";
+  const Result result =
+      run("fog grate --truth --bound 0.01 --no-cache --steps 8,32 -o @/out --json @/r.json" + small);
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_NE(result.out.find("march 32"), std::string::npos) << result.out;
+  const auto json = nlohmann::json::parse(readFile(folder_ / "r.json"));
+  EXPECT_EQ(readFile(folder_ / "r.json"), readFile(folder_ / "out" / "results.json"));
+  EXPECT_EQ(json.at("media").size(), 5u);
+  EXPECT_LT(json.at("media")[0].at("rel_rmse_99"), 0.1);
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "report.html"));
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "media" / "reference.exr"));
+  ASSERT_EQ(run("report @/out -o @/again.html").exitCode, 0);
+  EXPECT_EQ(readFile(folder_ / "again.html"), readFile(folder_ / "out" / "report.html"));
+  // What is wrong in a medium's results is named.
+  auto broken = json;
+  broken["media"][1].erase("integrate_ms");
+  writeTextFile(folder_ / "out" / "results.json", broken.dump());
+  expectMistake("report @/out -o @/b.html", 1, "media[1].integrate_ms is missing");
+
+  ASSERT_EQ(run("fog grate -o @/a.exr" + small).exitCode, 0);
+  ASSERT_EQ(
+      run("fog grate -o @/a.png --truth --bound 0.1 --integrators march --steps 8 --march-map paraboloid" +
+          small)
+          .exitCode,
+      0);
+  EXPECT_TRUE(fs::exists(folder_ / "a.exr") && fs::exists(folder_ / "a.png") &&
+              fs::exists(folder_ / "a.reference.png"));
+}
+
+TEST_F(CliTest, FogMarchesADensity) {
+  ASSERT_EQ(run("scene --density puff --for grate -o @/puff.vdb").exitCode, 0);
+  const Result result =
+      run("fog grate --density @/puff.vdb --steps 16 --size 24 --truth --bound 0.05 --vsv-size "
+          "64x64x128 --map-size 64 --repeats 1 --json @/r.json");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto json = nlohmann::json::parse(readFile(folder_ / "r.json"));
+  ASSERT_EQ(json.at("media").size(), 2u);
+  EXPECT_EQ(json.at("media")[0].at("integrator"), "bits");
+  EXPECT_EQ(json.at("media")[0].at("steps"), 16);
+  EXPECT_LT(json.at("media")[0].at("rel_rmse_99"), 0.5);
+  EXPECT_FALSE(json.at("medium").at("density").is_null());
+}
+
 TEST_F(CliTest, EveryBiasKnobIsAFlag) {
   const Result result =
       run("compare corner --biases constant,adaptive --constant-offset 0.125 --adaptive-k 0.002 --epsilon-at "
@@ -166,6 +211,20 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("compare contact --no-such-flag", 2, "--no-such-flag");
   expectMistake("render contact -o @/a.jpg", 2, "write a .png or an .exr");
   expectMistake("render contact --biases all -o @/a.png", 2, "one configuration");
+  expectMistake("fog grate --integrators rays", 2, "--integrators rays");
+  expectMistake("fog grate --steps 0", 2, "--steps 0");
+  expectMistake("fog grate --steps 3.5", 2, "--steps 3.5");
+  expectMistake("fog grate --march-map spot", 2, "--march-map spot: choose cube or paraboloid");
+  expectMistake("fog grate --sigma-s 1,2", 2, "--sigma-s 1,2: write one number or r,g,b");
+  expectMistake("fog grate --sigma-a -1", 2, "--sigma-a -1");
+  expectMistake("fog grate --sigma-s nan", 2, "--sigma-s nan");
+  expectMistake("fog grate --g 1", 2, "--g 1");
+  expectMistake("fog grate --reach 0", 2, "--reach 0");
+  expectMistake("fog grate --bound 0", 2, "--bound 0");
+  expectMistake("fog grate --density-scale 2", 2, "need a --density");
+  expectMistake("fog grate --frames 3", 2, "--frames and --move need each other");
+  expectMistake("fog grate --frames 3 --move sun:1,0,0", 2, "--move sun:1,0,0");
+  expectMistake("fog grate --frames 3 --move light:1,0,0", 2, "give a folder with -o");
   expectMistake("scene slope", 2, "-o FILE.glb");
   expectMistake("scene slope -o @/a.obj", 2, "write a .glb");
   EXPECT_EQ(fileCount(), 0u);
@@ -181,7 +240,16 @@ TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
   expectMistake("compare contact --camera eye:0,1000,0,target:0,2000,0 --size 16", 1,
                 "the camera sees no surface");
   expectMistake("render contact --size 16 --map-size 16 -o /proc/nowhere/a.png", 1, "/proc/nowhere");
+  expectMistake("fog grate --density @/none.vdb --size 16", 1, "none.vdb");
+  expectMistake("fog atrium --light moon --size 16", 1, "--light moon");
+  expectMistake("fog grate --light 0,1,5 --camera eye:0,1,5,target:0,0,0 --size 16", 1,
+                "stands at the camera's eye");
   expectMistake("scene nothing -o @/a.glb", 1, "nothing");
+  expectMistake("scene --density steam -o @/a.vdb", 2, "choose of puff, fog, turbulence");
+  expectMistake("scene --density puff", 2, "-o FILE.vdb");
+  expectMistake("scene --density puff -o @/a.glb", 2, "write a .vdb");
+  expectMistake("scene grate --density puff -o @/a.vdb", 2, "--for grate");
+  expectMistake("scene --density puff --for nothing -o @/a.vdb", 1, "nothing");
   expectMistake("compare contact --shader-dir @/none --size 16", 1, "none");
   EXPECT_EQ(fileCount(), 0u);
 }
@@ -255,6 +323,11 @@ TEST_F(CliTest, VsvSaysWhatIsWrong) {
 
 TEST_F(CliTest, SceneListsAndInfoTells) {
   const Result scenes = run("scene");
+  for (const char* density : {"puff", "fog", "turbulence"})
+    EXPECT_NE(scenes.out.find(density), std::string::npos) << density;
+  const Result puff = run("scene --density puff --for contact -o @/puff.vdb");
+  EXPECT_EQ(puff.exitCode, 0) << puff.err;
+  EXPECT_NE(puff.out.find("voxels of"), std::string::npos);
   for (const char* name :
        {"lshape", "double-torus", "factory", "atrium", "corner", "sheets", "contact", "slope", "crowd"})
     EXPECT_NE(scenes.out.find(name), std::string::npos) << name;

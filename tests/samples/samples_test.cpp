@@ -13,17 +13,24 @@
 namespace gnomon {
 namespace {
 
-class Samples : public ::testing::TestWithParam<const char*> {};
+struct Sample {
+  const char* name;
+  const char* scene;
+};
+void PrintTo(const Sample& sample, std::ostream* out) {  // part of the test's name
+  *out << sample.name;
+}
+class Samples : public ::testing::TestWithParam<Sample> {};
 
 // On lavapipe the pictures are equal to the byte; another device rounds otherwise, and a shadow test may fall
 // to the other side in half a percent of the pixels.
 TEST_P(Samples, DrawsItsPicture) {
   const test::TemporaryFolder folder;
-  const std::string name = GetParam();
+  const std::string name = GetParam().name;
   const std::filesystem::path picture = folder.path() / "picture.png";
   const std::filesystem::path messages = folder.path() / "stderr";
-  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/" + name + " contact " + picture.string() +
-                              " 2>" + messages.string() + " >/dev/null";
+  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/" + name + " " + GetParam().scene + " " +
+                              picture.string() + " 2>" + messages.string() + " >/dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0) << readFile(messages);
   EXPECT_EQ(readFile(messages), "");
   const std::filesystem::path golden = std::filesystem::path(GNOMON_TEST_DIR) / "golden" / (name + ".png");
@@ -39,9 +46,11 @@ TEST_P(Samples, DrawsItsPicture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Samples,
-                         ::testing::Values("01_point_light_cube", "02_point_light_paraboloid",
-                                           "03_shadow_volume"),
-                         [](const auto& sample) { return std::string(sample.param); });
+                         ::testing::Values(Sample{"01_point_light_cube", "contact"},
+                                           Sample{"02_point_light_paraboloid", "contact"},
+                                           Sample{"03_shadow_volume", "contact"},
+                                           Sample{"04_lamp_in_fog", "grate"}),
+                         [](const auto& sample) { return std::string(sample.param.name); });
 
 // Of docs/add_a_parameterization.md: it stands in the table beside the cube, covers every pixel, and its
 // adaptive bias works.

@@ -30,6 +30,7 @@ MediaSetup emptyMediaSetup(const glm::vec3& eyeW, const glm::vec3& targetW, cons
        .indices = {0, 1, 2}});
   setup.scene.instances.push_back({});
   setup.camera = lookAt("camera", eyeW, targetW, 1.0f);
+  setup.pictureSide = 40;  // each pixel is integrated on the CPU, too
   setup.light = {.positionW = lightW, .intensity = {3.0f, 5.0f, 7.0f}};
   setup.medium = {.sigmaS = {0.05f, 0.08f, 0.02f}, .sigmaA = {0.01f, 0.0f, 0.1f}, .g = 0.4f, .reach = 12.0f};
   return setup;
@@ -58,14 +59,15 @@ MediaWorld::MediaWorld(const gpu::Device& device, const MediaSetup& given)
                        .side = setup.mapSide,
                        .camera = view,
                        .options = {}};
-  const FittedMap fittedCube = cubeParameterization().fit(input);
+  fittedCube_ = cubeParameterization().fit(input);
   FitInput paraboloidInput = input;
   paraboloidInput.side = static_cast<int>(setup.mapSide * std::sqrt(3.0));  // as many texels
   volume = std::make_unique<ShadowVolume>(
       device, fitVolume(input, setup.size, setup.fit),
-      setup.source == VolumeSource::Resample ? std::make_shared<const FittedMap>(fittedCube) : nullptr);
-  cube = std::make_unique<MapImage>(device, fittedCube);
-  paraboloid = std::make_unique<MapImage>(device, paraboloidParameterization().fit(paraboloidInput));
+      setup.source == VolumeSource::Resample ? std::make_shared<const FittedMap>(fittedCube_) : nullptr);
+  cube = std::make_unique<MapImage>(device, fittedCube_);
+  fittedParaboloid_ = paraboloidParameterization().fit(paraboloidInput);
+  paraboloid = std::make_unique<MapImage>(device, fittedParaboloid_);
   const MapRenderer maps(device);
   const VolumeRenderer renderer(device);
   gpu::Commands commands(device, "volume and maps");
@@ -78,6 +80,20 @@ MediaWorld::MediaWorld(const gpu::Device& device, const MediaSetup& given)
     densityBuffers = std::make_unique<DensityBuffers>(device, *density);
   }
   pass.setMedium(view, setup.medium, densityBuffers.get());
+}
+
+void MediaWorld::removeShadows() {
+  const SceneBuffers nothing =
+      createSceneBuffers(device_, emptyMediaSetup(view.eyeW, view.eyeW + view.forwardW, {}).scene);
+  const MapRenderer maps(device_);
+  const LightModel light{.type = LightType::Point, .positionW = setup.light.positionW};
+  cube = std::make_unique<MapImage>(device_, fittedCube_);
+  paraboloid = std::make_unique<MapImage>(device_, fittedParaboloid_);
+  gpu::Commands commands(device_, "no shadows");
+  commands.fill(volume->bits(), 0);
+  maps.record(commands, nothing, *cube, light, CullMode::None);
+  maps.record(commands, nothing, *paraboloid, light, CullMode::None);
+  commands.submitAndWait();
 }
 
 std::vector<glm::vec3> MediaWorld::scattered(const MediaMethod& method, bool ofParaboloid) {
@@ -95,7 +111,8 @@ std::vector<glm::vec3> MediaWorld::scattered(const MediaMethod& method, bool ofP
 namespace {
 
 // Of a smooth function, to `tolerance` of its whole: Simpson's rule, halved where halving changes it.
-glm::dvec3 adaptiveSimpson(const std::function<glm::dvec3(double)>& f, double a, double b, double tolerance) {
+glm::dvec3 adaptiveSimpson(const std::function<glm::dvec3(double)>& f, double a, double b, double tolerance,
+                           int leastDepth) {
   const std::function<glm::dvec3(double, double, glm::dvec3, glm::dvec3, glm::dvec3, double, int)> refine =
       [&](double lo, double hi, glm::dvec3 flo, glm::dvec3 fmid, glm::dvec3 fhi, double allowed, int depth) {
         const double mid = 0.5 * (lo + hi);
@@ -104,7 +121,7 @@ glm::dvec3 adaptiveSimpson(const std::function<glm::dvec3(double)>& f, double a,
         const glm::dvec3 left = (flo + 4.0 * fq + fmid) * ((mid - lo) / 6.0);
         const glm::dvec3 right = (fmid + 4.0 * fr + fhi) * ((hi - mid) / 6.0);
         const glm::dvec3 change = glm::abs(left + right - whole);
-        if (depth >= 40 || (depth >= 6 && std::max({change.x, change.y, change.z}) < 15.0 * allowed))
+        if (depth >= 40 || (depth >= leastDepth && std::max({change.x, change.y, change.z}) < 15.0 * allowed))
           return left + right + (left + right - whole) / 15.0;
         return refine(lo, mid, flo, fq, fmid, 0.5 * allowed, depth + 1) +
                refine(mid, hi, fmid, fr, fhi, 0.5 * allowed, depth + 1);
@@ -115,25 +132,30 @@ glm::dvec3 adaptiveSimpson(const std::function<glm::dvec3(double)>& f, double a,
 }  // namespace
 
 glm::dvec3 unshadowedLight(const glsl::Medium& medium, const MediaLightSource& light, const glm::dvec3& eyeW,
-                           const glm::dvec3& endW) {
+                           const glm::dvec3& endW, double begin) {
   const double length = glm::length(endW - eyeW), g = medium.g;
   const glm::dvec3 dir = (endW - eyeW) / length;
   const glm::dvec3 sigmaT = glm::dvec3(medium.sigmaS) + glm::dvec3(medium.sigmaA);
-  const auto perMetre = [&](double s) {
+  const auto ofPointLight = [&](double s) {
     const glm::dvec3 fromLight = eyeW + dir * s - light.positionW;
     const double r = glm::length(fromLight);
-    if (light.coneCos > -1.0 && glm::dot(fromLight, light.coneAxisW) < light.coneCos * r)
-      return glm::dvec3(0.0);
     const double x = 1.0 + g * g - 2.0 * g * glm::dot(fromLight / r, -dir);
     const double phase = (1.0 - g * g) / (4.0 * std::numbers::pi * std::pow(x, 1.5));
     return glm::dvec3(medium.sigmaS) * glm::exp(-sigmaT * (s + r)) * glm::dvec3(light.intensity) * phase /
            (r * r);
   };
+  const auto perMetre = [&](double s) {
+    const glm::dvec3 fromLight = eyeW + dir * s - light.positionW;
+    const bool inCone = light.coneCos <= -1.0 ||
+                        glm::dot(fromLight, light.coneAxisW) >= light.coneCos * glm::length(fromLight);
+    return inCone ? ofPointLight(s) : glm::dvec3(0.0);
+  };
+  const int leastDepth = light.coneCos > -1.0 ? 11 : 6;  // a cone may let through a stretch of centimetres
   // Cut where the ray passes the light, so that the peak cannot fall between two samples.
-  const double peak = std::clamp(glm::dot(light.positionW - eyeW, dir), 0.0, length);
-  const double scale = glm::length(perMetre(peak)) * glm::length(eyeW + dir * peak - light.positionW);
-  return adaptiveSimpson(perMetre, 0.0, peak, 1e-9 * scale) +
-         adaptiveSimpson(perMetre, peak, length, 1e-9 * scale);
+  const double peak = std::clamp(glm::dot(light.positionW - eyeW, dir), begin, length);
+  const double scale = glm::length(ofPointLight(peak)) * glm::length(eyeW + dir * peak - light.positionW);
+  return adaptiveSimpson(perMetre, begin, peak, 1e-9 * scale, leastDepth) +
+         adaptiveSimpson(perMetre, peak, length, 1e-9 * scale, leastDepth);
 }
 
 double relativeRmse(const std::vector<glm::vec3>& measured, const std::vector<glm::vec3>& expected) {

@@ -32,6 +32,9 @@ class MediaWorld {
  public:
   MediaWorld(const gpu::Device& device, const MediaSetup& setup);
 
+  // From now on nothing is in the light's way, as far as volume and maps know.
+  void removeShadows();
+
   // In-scattered light, a vec3 a pixel.
   std::vector<glm::vec3> scattered(const MediaMethod& method, bool paraboloid = false);
 
@@ -49,11 +52,13 @@ class MediaWorld {
 
  private:
   const gpu::Device& device_;
+  FittedMap fittedCube_, fittedParaboloid_;
 };
 
-// L(x) of shaders/shared/medium.glsl without occluders, by adaptive quadrature over metres in double.
+// L(x) of shaders/shared/medium.glsl without occluders, by adaptive quadrature over metres in double;
+// `begin`: only from there on, metres from the eye.
 glm::dvec3 unshadowedLight(const glsl::Medium& medium, const MediaLightSource& light, const glm::dvec3& eyeW,
-                           const glm::dvec3& endW);
+                           const glm::dvec3& endW, double begin = 0.0);
 
 // sqrt of the mean square difference over the mean of `expected`, of all channels.
 double relativeRmse(const std::vector<glm::vec3>& measured, const std::vector<glm::vec3>& expected);

@@ -227,9 +227,9 @@ void MediaPass::recordSurfaces(gpu::Commands& commands, const SceneBuffers& scen
                                         {glsl::kBindVisibility, visibility},
                                         {glsl::kBindMedia, uniforms_},
                                         {glsl::kBindSurface, surfaces_}};
-  // Homogeneous: bound and not read.
-  bindings.emplace_back(glsl::kBindLightDepth, density_ != nullptr ? lightDepth_ : inScattered_);
-  bindings.emplace_back(glsl::kBindEyeDepth, density_ != nullptr ? eyeDepth_ : inScattered_);
+  // Homogeneous: some buffer is bound in their place and not read.
+  bindings.emplace_back(glsl::kBindLightDepth, density_ != nullptr ? lightDepth_ : visibility);
+  bindings.emplace_back(glsl::kBindEyeDepth, density_ != nullptr ? eyeDepth_ : visibility);
   if (density_ != nullptr) push.reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW);
   commands.beginStage("media surfaces");
   commands.dispatch(

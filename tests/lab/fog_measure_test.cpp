@@ -1,0 +1,140 @@
+// What a medium's rows are judged by, on numbers small enough to work out by hand.
+#include "lab/fog_measure.h"
+#include "lab/fog_motion.h"
+#include "lab/fog_pictures.h"
+
+#include "base/error.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace gnomon {
+namespace {
+
+ImageF imageOf(int width, int height, float value) {
+  return ImageF(width, height, 3, value);
+}
+
+MediaRow row(Integrator integrator, int steps, double buildMs, double integrateMs, double error) {
+  return {.method = {.integrator = integrator, .steps = steps},
+          .mapMs = buildMs,
+          .integrateMs = integrateMs,
+          .relRmse = error,
+          .relRmse99 = 0.5 * error};
+}
+
+const EqualTerms& find(const std::vector<EqualTerms>& terms, bool withBuild, ErrorMeasure measure) {
+  for (const EqualTerms& each : terms)
+    if (each.withBuild == withBuild && each.measure == measure) return each;
+  throw std::runtime_error("no such terms");
+}
+
+TEST(RelativeRmse, IsTheRootOfTheMeanSquareOverTheMean) {
+  ImageF reference = imageOf(4, 5, 2.0f), measured = reference;
+  EXPECT_EQ(relativeRmse(measured, reference), 0.0);
+  measured.at(1, 2)[0] += 3.0f;
+  measured.at(1, 2)[2] -= 4.0f;
+  EXPECT_DOUBLE_EQ(relativeRmse(measured, reference), std::sqrt(25.0 / 60.0) / 2.0);
+  measured.at(0, 0)[1] += 1.0f;
+  // 19 of 20 pixels: without the worst one.
+  EXPECT_DOUBLE_EQ(relativeRmse(measured, reference, 0.95), std::sqrt(1.0 / 57.0) / 2.0);
+  EXPECT_EQ(relativeRmse(imageOf(2, 2, 0.0f), imageOf(2, 2, 0.0f)), 0.0);
+  EXPECT_TRUE(std::isinf(relativeRmse(imageOf(2, 2, 1.0f), imageOf(2, 2, 0.0f))));
+}
+
+// A pixel that follows the reference does not flicker, one that stands still or moves the other way does.
+TEST(ChangeBeyond, ComparesSignedChanges) {
+  const ImageF before = imageOf(2, 2, 1.0f), after = imageOf(2, 2, 3.0f);
+  EXPECT_DOUBLE_EQ(changeBeyond(imageOf(2, 2, 5.0f), imageOf(2, 2, 7.0f), before, after), 0.0);
+  EXPECT_DOUBLE_EQ(changeBeyond(before, before, before, after), 2.0);
+  EXPECT_DOUBLE_EQ(changeBeyond(after, before, before, after), 4.0);
+}
+
+TEST(EqualTerms, AreReadOffTheMarchInLogLog) {
+  // The march: error 1/steps, time 10 ms a step, build 20 ms.
+  const std::vector<MediaRow> rows = {row(Integrator::Runs, 0, 80.0, 10.0, 0.02),
+                                      row(Integrator::March, 10, 0.0, 100.0, 0.1),
+                                      row(Integrator::March, 100, 0.0, 1000.0, 0.01)};
+  const std::vector<EqualTerms> terms = equalTerms(rows);
+  ASSERT_EQ(terms.size(), 4u);
+  const EqualTerms& alone = find(terms, false, ErrorMeasure::RelRmse);
+  // Error 0.02 takes the march 500 ms, on a line of slope -1.
+  EXPECT_EQ(alone.faster.bound, Bound::Exact);
+  EXPECT_NEAR(alone.faster.value, 50.0, 1e-9);
+  // 10 ms is less than the march takes at all.
+  EXPECT_EQ(alone.better.bound, Bound::AtLeast);
+  EXPECT_NEAR(alone.better.value, 0.1 / 0.02, 1e-9);
+  EXPECT_NEAR(find(terms, true, ErrorMeasure::RelRmse).faster.value, 500.0 / 90.0, 1e-9);
+  // Both errors are halved in the other measure: the same line, shifted.
+  EXPECT_NEAR(find(terms, false, ErrorMeasure::RelRmse99).faster.value, 50.0, 1e-9);
+}
+
+TEST(EqualTerms, SayWhichWayTheyLieBeyondTheCurve) {
+  const std::vector<MediaRow> rows = {
+      row(Integrator::Bits, 0, 0.0, 2000.0, 0.001), row(Integrator::Popcount, 0, 0.0, 200.0, 0.5),
+      row(Integrator::March, 10, 0.0, 100.0, 0.1), row(Integrator::March, 100, 0.0, 1000.0, 0.01)};
+  const std::vector<EqualTerms> terms = equalTerms(rows);
+  const EqualTerms &bits = terms[2], &popcount = terms[6];
+  EXPECT_EQ(bits.row, 0u);
+  EXPECT_EQ(bits.faster.bound, Bound::AtLeast);  // no march reaches 0.001
+  EXPECT_DOUBLE_EQ(bits.faster.value, 0.5);
+  EXPECT_EQ(bits.better.bound, Bound::AtMost);  // a march of more steps would fit into 2 s
+  EXPECT_DOUBLE_EQ(bits.better.value, 10.0);
+  EXPECT_EQ(popcount.row, 1u);
+  EXPECT_EQ(popcount.faster.bound, Bound::AtMost);
+  EXPECT_DOUBLE_EQ(popcount.faster.value, 0.5);
+  EXPECT_EQ(popcount.better.bound, Bound::Exact);
+  EXPECT_NEAR(popcount.better.value, 0.05 / 0.5, 1e-9);
+  EXPECT_EQ(factorText(bits.faster), ">= 0.5");
+  EXPECT_EQ(factorText(bits.better), "<= 10");
+  EXPECT_EQ(factorText(popcount.better), "0.1");
+}
+
+TEST(EqualTerms, NeedAMarchAndAnError) {
+  EXPECT_TRUE(equalTerms({row(Integrator::Runs, 0, 1.0, 1.0, 0.1)}).empty());
+  MediaRow unscored = row(Integrator::March, 32, 1.0, 1.0, 0.1);
+  unscored.relRmse = unscored.relRmse99 = std::nullopt;
+  EXPECT_TRUE(equalTerms({row(Integrator::Runs, 0, 1.0, 1.0, 0.1), unscored}).empty());
+}
+
+TEST(WorstMediaPlace, IsWhereErrorsAreLargeForTheirBrightness) {
+  ImageF reference = imageOf(200, 150, 1.0f), measured = reference;
+  reference.at(20, 20)[0] = 1000.0f;  // the light itself: off by more, and by less for what it is
+  measured.at(20, 20)[0] = 1003.0f;
+  measured.at(160, 120)[1] = 2.0f;
+  const std::optional<WorstPlace> worst = worstMediaPlace(measured, reference);
+  ASSERT_TRUE(worst.has_value());
+  EXPECT_TRUE(worst->x <= 160 && worst->x + worst->size > 160);
+  EXPECT_TRUE(worst->y <= 120 && worst->y + worst->size > 120);
+  EXPECT_FALSE(worstMediaPlace(reference, reference).has_value());
+  EXPECT_EQ(worstMediaPlace(imageOf(3, 2, 1.0f), imageOf(3, 2, 0.5f))->size, 2);
+}
+
+TEST(MediaDifferencePicture, IsBlueWhereLighterAndVermillionWhereDarker) {
+  const ImageF reference = imageOf(3, 1, 0.5f);
+  ImageF measured = reference;
+  for (int c = 0; c < 3; ++c) {
+    measured.at(0, 0)[c] += kFullDifference;
+    measured.at(1, 0)[c] -= kFullDifference;
+  }
+  const Image8 picture = mediaDifferencePicture(measured, reference, {1.0f});
+  EXPECT_GT(picture.at(0, 0)[2], picture.at(0, 0)[0] + 100);
+  EXPECT_GT(picture.at(1, 0)[0], picture.at(1, 0)[2] + 100);
+  EXPECT_EQ(picture.at(2, 0)[0], picture.at(2, 0)[2]);
+}
+
+TEST(Motion, RunsStraightFromTheFirstPlaceToTheLast) {
+  const FogMotion motion = parseMotion("camera:2,0,-4", 5);
+  EXPECT_TRUE(motion.camera);
+  EXPECT_EQ(placeAt(motion, {1, 1, 1}, 0), glm::vec3(1, 1, 1));
+  EXPECT_EQ(placeAt(motion, {1, 1, 1}, 2), glm::vec3(2, 1, -1));
+  EXPECT_EQ(placeAt(motion, {1, 1, 1}, 4), glm::vec3(3, 1, -3));
+  for (const char* text : {"", "lamp:1,0,0", "light", "light:1,0", "light:0,0,0"})
+    EXPECT_THROW(parseMotion(text, 5), UsageError) << text;
+  EXPECT_THROW(parseMotion("light:1,0,0", 1), UsageError);
+  EXPECT_THROW(parseMotion("light:1,0,0", kMostFrames + 1), UsageError);
+}
+
+}  // namespace
+}  // namespace gnomon
