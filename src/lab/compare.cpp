@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "lab/flip.h"
+#include "lab/map_params.h"
 #include "lab/pictures.h"
 #include "lab/robustness.h"
 #include "lab/row_pictures.h"
@@ -169,7 +170,7 @@ class MapComparison {
       row.mapSide = map.fitted.map.side;
       row.mapRows = map.fitted.map.rows;
       row.mapSize = mapSizeText(map.fitted);
-      row.mapParams = map.volume ? volumeParams() : omniParams();
+      row.mapParams = mapParams(map.fitted, options_.mapOptions);
       row.layers = map.fitted.map.layerCount;
       row.cull = cullModeName(options_.cull);
       row.mapOptions = options_.mapOptions;
@@ -200,39 +201,6 @@ class MapComparison {
                               row.mapSide, row.mapRows);
     names.writesLabels = row.filter == options_.filters.front()->name;
     return names;
-  }
-
-  // What was not left at its default.
-  std::vector<std::pair<std::string, std::string>> omniParams() const {
-    const MapOptions& map = options_.mapOptions;
-    const MapOptions defaults;
-    std::vector<std::pair<std::string, std::string>> params;
-    const int kind = maps_->fitted().map.kind;
-    if (kind == glsl::kMapCube || kind == glsl::kMapCubeRadial) {
-      if (map.cubeDepth != defaults.cubeDepth)
-        params.emplace_back("cube_depth", cubeDepthName(map.cubeDepth));
-      if (map.cubePasses != defaults.cubePasses)
-        params.emplace_back("cube_passes", cubePassesName(map.cubePasses));
-    }
-    if (kind == glsl::kMapParaboloid) {
-      if (map.paraboloidRaster != defaults.paraboloidRaster)
-        params.emplace_back("paraboloid_raster", paraboloidRasterName(map.paraboloidRaster));
-      if (map.paraboloidAxisW)
-        params.emplace_back("paraboloid_axis", fmt::format("{:.6g},{:.6g},{:.6g}", map.paraboloidAxisW->x,
-                                                           map.paraboloidAxisW->y, map.paraboloidAxisW->z));
-    }
-    return params;
-  }
-
-  std::vector<std::pair<std::string, std::string>> volumeParams() const {
-    const MapOptions& map = options_.mapOptions;
-    std::vector<std::pair<std::string, std::string>> params = {
-        {"vsv_size", volumeSizeName(map.volumeSize)},
-        {"vsv_source", volumeSourceName(map.volumeSource)},
-        {"vsv_fit", volumeFitName(map.volumeFit)}};
-    if (map.volumeSource == VolumeSource::Resample)
-      params.emplace_back("cube_size", fmt::format("{}", maps_->fitted().lookedUpIn->map.side));
-    return params;
   }
 
   // Rounds run one after another through all rows, so that a machine that slows down slows all of them. A
