@@ -23,5 +23,6 @@ Run addVsvVerb(CLI::App& app);
 Run addSceneVerb(CLI::App& app);
 Run addInfoVerb(CLI::App& app);
 Run addBenchVerb(CLI::App& app);
+Run addReproduceVerb(CLI::App& app);
 
 }  // namespace gnomon

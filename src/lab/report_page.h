@@ -1,10 +1,13 @@
 #pragma once
-// The report's page, embedded from src/lab/report/: a Mustache template, its style and its script.
+// Pages, embedded from src/lab/report/: Mustache templates, their styles and script. A paper's page
+// (reproduce.html) has the report's style, and its own beside it.
 
 namespace gnomon {
 
 extern const char* const kReportPageHtml;
 extern const char* const kReportPageCss;
 extern const char* const kReportPageJs;
+extern const char* const kReportReproduceHtml;
+extern const char* const kReportReproduceCss;
 
 }  // namespace gnomon
