@@ -98,6 +98,16 @@ const Session& PaperRun::open(const std::string& scene, const std::string& light
                               int pixels) {
   SetupOptions setup{.scene = scene, .light = light, .camera = camera, .size = std::to_string(pixels)};
   if (ownScene()) setup = {.scene = options_.scene, .size = setup.size};
+  return open(setup);
+}
+
+const Session& PaperRun::openCamera(const std::string& camera) {
+  SetupOptions setup = session_->setup();
+  setup.camera = camera;
+  return open(setup);
+}
+
+const Session& PaperRun::open(const SetupOptions& setup) {
   const std::string key = setup.scene + "\n" + setup.light + "\n" + setup.camera + "\n" + setup.size;
   if (key == opened_) return *session_;
   Progress(title_, 1).step("opening " + setup.scene);
@@ -161,13 +171,13 @@ Comparison FigureRun::compare(const std::string& name, const CompareOptions& ask
 }
 
 void FigureRun::panel(const std::string& name, const Row& row, const std::string& what,
-                      const std::string& says) {
+                      const std::string& says, const char* picture) {
   figure().panels.push_back({.name = name,
                              .what = what,
                              .says = says,
                              .counts = countsText(row),
                              .command = command_,
-                             .picture = pathOf(row.pictures, "beauty", below_),
+                             .picture = pathOf(row.pictures, picture, below_),
                              .labels = pathOf(row.pictures, "labels", below_)});
   number("scored", name, static_cast<double>(row.scored));
   number("acne", name, static_cast<double>(row.acne));
@@ -236,13 +246,16 @@ std::vector<FrameCost> timeFrames(const Session& session, const Parameterization
   for (int round = -1; round < repeats; ++round) {  // round -1 compiles the pipelines
     progress.step(round < 0 ? "first frames" : fmt::format("round {} of {} of frames", round + 1, repeats));
     double first = 0.0;
+    std::map<std::pair<int, MapContent>, double> drawn;  // methods that share a map share what it took
     for (size_t i = 0; i < kinds.size(); ++i) {
       const FrameKind& kind = kinds[i];
       double build = 0.0, shade = session.timeGBuffer();
       if (kind.bias != nullptr) {
         const Method method = methodFor(session, {}, *kind.bias);
         MapSet& set = *maps.at(kind.mapSide);
-        build = set.redraw(kind.bias->content);
+        const std::pair key(kind.mapSide, kind.bias->content);
+        if (!drawn.contains(key)) drawn[key] = set.redraw(kind.bias->content);
+        build = drawn[key];
         shade +=
             timeVisibility(session, passes, set.with(kind.bias->content), exact, method, kind.filter->id);
       }

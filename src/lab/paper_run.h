@@ -22,6 +22,8 @@ class PaperRun {
   // The user's own scene where there is one, else the one asked for; it stays until another one is opened.
   const Session& open(const std::string& scene, const std::string& light, const std::string& camera,
                       int pixels);
+  // Another camera of the scene that is open.
+  const Session& openCamera(const std::string& camera);
   const Session& session() const { return *session_; }
   bool ownScene() const { return !options_.scene.empty(); }
   const ReproduceOptions& options() const { return options_; }
@@ -40,6 +42,8 @@ class PaperRun {
   Reproduction& result() { return result_; }
 
  private:
+  const Session& open(const SetupOptions& setup);
+
   const gpu::DeviceOptions device_;
   const ReproduceOptions options_;
   const int partCount_;
@@ -57,7 +61,9 @@ class FigureRun {
 
   // Everything of one map, with pictures in a folder of its own below the figure's.
   Comparison compare(const std::string& name, const CompareOptions& options);
-  void panel(const std::string& name, const Row& row, const std::string& what, const std::string& says);
+  // `picture`: of the row's, beside its labels.
+  void panel(const std::string& name, const Row& row, const std::string& what, const std::string& says,
+             const char* picture = "beauty");
   void exactPanel(const std::string& name, const Comparison& comparison, const std::string& what,
                   const std::string& says);
   // Everything that faces the light is lit.

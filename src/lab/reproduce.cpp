@@ -39,7 +39,7 @@ Json toJson(const JudgedClaim& judged) {
 }  // namespace
 
 const std::vector<std::string>& reproduciblePapers() {
-  static const std::vector<std::string> papers = {"weiskopf2003"};
+  static const std::vector<std::string> papers = {"weiskopf2003", "dou2014"};
   return papers;
 }
 
@@ -50,7 +50,8 @@ Reproduction reproduce(const gpu::DeviceOptions& device, const ReproduceOptions&
   if (!(options.scale >= kLeastScale && options.scale <= 1.0))
     throw UsageError(fmt::format("--scale {:g} is outside {:g}..1", options.scale, kLeastScale));
   const auto start = std::chrono::steady_clock::now();
-  Reproduction result = reproduceWeiskopf2003(device, options);
+  Reproduction result =
+      options.paper == "dou2014" ? reproduceDou2014(device, options) : reproduceWeiskopf2003(device, options);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
