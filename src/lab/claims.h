@@ -6,8 +6,9 @@
 //   acne(5b)"}}
 //
 // A number is named quantity(place). A condition compares sums, two or more in a chain (0.9 a(b) <= a(c) <=
-// 1.1 a(b)): numbers, literals (10, 0.1%), + - * /, parentheses, min(..., ...) and max(..., ...). All conditions true: the claim holds; some: in part; none: it
-// does not hold here. Where a number was not measured there is no verdict, and the claim says so.
+// 1.1 a(b)): numbers, literals (10, 0.1%), + - * /, parentheses, min(..., ...) and max(..., ...). All
+// conditions true: the claim holds; some: in part; none: it does not hold here. Where a number was not
+// measured there is no verdict, and the claim says so.
 
 #include <map>
 #include <string>

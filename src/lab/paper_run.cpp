@@ -40,15 +40,18 @@ std::string compareCommand(const Session& session, const CompareOptions& options
   if (options.cull == CullMode::None) line += " --cull none";
   std::string biases, filters;
   for (const BiasMethod* bias : options.biases)
-    biases += (biases.empty() ? "" : ",") + std::string(bias->name);
+    if (bias->user == nullptr) biases += (biases.empty() ? "" : ",") + std::string(bias->name);
   for (const Filter* filter : options.filters)
     filters += (filters.empty() ? "" : ",") + std::string(filter->name);
-  line += " --biases " + biases;
+  line += " --biases " + (biases.empty() ? "none" : biases);
   if (filters != "none") line += " --filters " + filters;
   for (const KnobValue& value : options.knobs)
     for (const BiasMethod* bias : options.biases)
       for (const BiasKnob& knob : bias->knobs)
-        if (&knob == value.knob) line += fmt::format(" --{}-{} {:.6g}", bias->name, knob.name, value.value);
+        if (&knob == value.knob)
+          line += bias->user != nullptr
+                      ? fmt::format(" --bias-file {} --bias-file-knob {:.6g}", bias->user->path, value.value)
+                      : fmt::format(" --{}-{} {:.6g}", bias->name, knob.name, value.value);
   if (options.epsilonAt != glsl::kEpsilonAtOccluder)
     line += fmt::format(" --epsilon-at {}", epsilonAtName(options.epsilonAt));
   if (options.tune) line += " --tune";

@@ -54,7 +54,8 @@ class PaperRun {
   Reproduction result_;
 };
 
-// The panels of one figure. Numbers of a panel are named by figure and panel: "acne(5b)".
+// The panels of one figure. Numbers of a panel are named by figure and panel: "acne(5b)", "leak(7 near
+// slope)".
 class FigureRun {
  public:
   FigureRun(PaperRun& run, const std::string& id, const std::string& title);
@@ -70,7 +71,7 @@ class FigureRun {
   void unshadowedPanel(const std::string& name, const Parameterization& map, const std::string& what,
                        const std::string& says);
   void number(const std::string& quantity, const std::string& panel, double value) {
-    run_.number(quantity, id_ + panel, value);
+    run_.number(quantity, id_ + (panel.size() == 1 ? "" : " ") + panel, value);
   }
   Figure& figure() { return run_.result().figures[index_]; }
 
@@ -107,7 +108,7 @@ std::vector<FrameCost> timeFrames(const Session& session, const Parameterization
                                   const std::vector<FrameKind>& kinds, int repeats,
                                   const std::string& progressTitle);
 
-// The claims of each paper are beside what runs its figures.
+std::vector<Claim> weiskopfClaims();
 Reproduction reproduceWeiskopf2003(const gpu::DeviceOptions& device, const ReproduceOptions& options);
 Reproduction reproduceDou2014(const gpu::DeviceOptions& device, const ReproduceOptions& options);
 

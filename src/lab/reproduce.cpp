@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "lab/paper_run.h"
 #include "lab/results.h"
+#include "scene/generate.h"
 
 #include <algorithm>
 #include <chrono>
@@ -49,9 +50,12 @@ Reproduction reproduce(const gpu::DeviceOptions& device, const ReproduceOptions&
         fmt::format("reproduce {}: no such paper; choose from weiskopf2003, dou2014", options.paper));
   if (!(options.scale >= kLeastScale && options.scale <= 1.0))
     throw UsageError(fmt::format("--scale {:g} is outside {:g}..1", options.scale, kLeastScale));
+  // A user's scene is refused here; later on, what it lacks leaves out a figure.
+  if (!options.scene.empty()) openScene(options.scene);
   const auto start = std::chrono::steady_clock::now();
   Reproduction result =
       options.paper == "dou2014" ? reproduceDou2014(device, options) : reproduceWeiskopf2003(device, options);
+  if (result.figures.empty() && !result.leftOut.empty()) throw WorldError(result.leftOut.front().why);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

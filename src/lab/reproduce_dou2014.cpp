@@ -3,9 +3,11 @@
 #include "lab/reproduce_dou2014.h"
 
 #include "base/error.h"
+#include "lab/errata/errata.h"
 #include "lab/map_set.h"
 #include "lab/maps.h"
 #include "lab/tune.h"
+#include "shadow/user_bias.h"
 
 #include <algorithm>
 #include <array>
@@ -29,19 +31,24 @@ CompareOptions mapOf(const PaperRun& run, const char* map, int side, const char*
 // one.
 void interior(PaperRun& run, const char* id, const char* camera) {
   run.open("atrium", "lantern", camera, run.scaled(1024));
-  FigureRun figure(run, id, "An interior, lit by one light through a map of 1024 × 1024 texels");
+  if (run.ownScene() && std::string(id) == "6") {
+    const std::vector<Camera>& cameras = run.session().scene().cameras;
+    if (cameras.size() < 2) throw WorldError("the scene has no second camera, and figure 1 shows the first");
+    run.openCamera(std::string(cameras[1].name));
+  }
+  FigureRun figure(run, id, "An interior, lit by one light");
   CompareOptions options = mapOf(run, "spot", 1024, "constant,slope,adaptive,dual");
   options.tune = true;
   const Comparison all = figure.compare("spot", options);
-  figure.panel(" constant", rowOf(all, "constant", "none", true), "the best constant",
+  figure.panel("constant", rowOf(all, "constant", "none", true), "the best constant",
                "Acne, and shadows that come off their casters.");
-  figure.panel(" slope", rowOf(all, "slope", "none", true), "the best slope-scaled bias",
+  figure.panel("slope", rowOf(all, "slope", "none", true), "the best slope-scaled bias",
                "Acne, and shadows that come off their casters.");
-  figure.panel(" adaptive", rowOf(all, "adaptive"), "adaptive, K = 0.0001",
+  figure.panel("adaptive", rowOf(all, "adaptive"), "adaptive, K = 0.0001",
                "No visible false shadow, and more detail of shadows kept.");
-  figure.panel(" dual", rowOf(all, "dual", "none", true), "dual with its best offset", "The reference.");
-  figure.panel(" adaptive, best K", rowOf(all, "adaptive", "none", true), "adaptive with its best K",
-               "(Not in the paper.)");
+  figure.panel("dual", rowOf(all, "dual", "none", true), "dual with its best offset", "The reference.");
+  figure.panel("adaptive, best K", rowOf(all, "adaptive", "none", true),
+               "adaptive with its best K (not in the paper)", "");
 }
 
 // Figure 7. One constant for both views: the one whose worse view is best.
@@ -83,6 +90,30 @@ KnobValue bestForBoth(View& near, View& far, const BiasMethod& bias, float start
   return best;
 }
 
+// Knobs whose worse view is best: those of the paraboloid, and a constant of a cube map's depth at an equal
+// number of texels.
+struct SharedKnobs {
+  std::vector<KnobValue> paraboloid, cube;
+};
+constexpr int kParaboloidSide = 2048, kCubeSide = 1182;  // 2 * 2048^2 = 6 * 1182^2
+
+SharedKnobs findSharedKnobs(const PaperRun& run, const Session& first, const BiasMethod& inDepth) {
+  const Session second(first, first.scene().cameras[1]);
+  const float diagonal = computeBounds(first.scene()).diagonal();
+  SharedKnobs knobs;
+  {
+    const Parameterization& map = *parseMaps("paraboloid").front();
+    View near(first, map, run.scaled(kParaboloidSide)), far(second, map, run.scaled(kParaboloidSide));
+    knobs.paraboloid = {bestForBoth(near, far, findBias("constant"), 2e-3f * diagonal, 60.0),
+                        bestForBoth(near, far, findBias("slope"), 2.0f, 3.0),
+                        bestForBoth(near, far, findBias("dual"), 1e-2f * diagonal, 6.0)};
+  }
+  const Parameterization& map = *parseMaps("cube").front();
+  View near(first, map, run.scaled(kCubeSide)), far(second, map, run.scaled(kCubeSide));
+  knobs.cube = {bestForBoth(near, far, inDepth, 1e-4f, 300.0)};
+  return knobs;
+}
+
 void figure7(PaperRun& run) {
   const Session& first = run.open("near-far", "lamp", "", run.scaled(512));
   std::vector<std::string> cameras;
@@ -90,32 +121,34 @@ void figure7(PaperRun& run) {
   if (cameras.size() < 2)
     throw WorldError(
         "the scene has fewer than two cameras, one for what is near the light and one for what is far");
-  const Parameterization& map = *parseMaps("paraboloid").front();
-  const int side = run.scaled(2048);
-  std::vector<KnobValue> knobs;
-  {
-    const Session second(first, first.scene().cameras[1]);
-    View near(first, map, side), far(second, map, side);
-    const float diagonal = computeBounds(first.scene()).diagonal();
-    knobs = {bestForBoth(near, far, findBias("constant"), 2e-3f * diagonal, 60.0),
-             bestForBoth(near, far, findBias("slope"), 2.0f, 3.0),
-             bestForBoth(near, far, findBias("dual"), 1e-2f * diagonal, 6.0)};
-  }
-  FigureRun figure(run, "7", "One dual paraboloid, seen near its light and far from it");
+  const std::shared_ptr<const UserBias> inDepth =
+      readUserBias("src/lab/errata/constant_in_depth.glsl", kErrataConstantInDepthGlsl);
+  const SharedKnobs knobs = findSharedKnobs(run, first, inDepth->method);
+  FigureRun figure(run, "7", "One map, seen near its light and far from it");
   for (size_t i = 0; i < 2; ++i) {
-    const std::string where = i == 0 ? " near" : " far";
+    const std::string where = i == 0 ? "near" : "far";
+    const std::string artefact =
+        i == 0 ? "Acne on the cube." : "Light where there should be shadow on the wall.";
     run.openCamera(cameras[i]);
-    CompareOptions options = mapOf(run, "paraboloid", 2048, "constant,slope,adaptive,dual");
-    options.knobs = knobs;
-    const Comparison all = figure.compare(i == 0 ? "near" : "far", options);
-    figure.panel(where + " constant", rowOf(all, "constant"), "the best constant for both views",
-                 i == 0 ? "Acne on the cube." : "Light where there should be shadow on the wall.");
+    CompareOptions options = mapOf(run, "paraboloid", kParaboloidSide, "constant,slope,adaptive,dual");
+    options.knobs = knobs.paraboloid;
+    const Comparison all = figure.compare(where, options);
+    figure.panel(where + " constant", rowOf(all, "constant"), "the best constant for both views, metres",
+                 artefact);
     figure.panel(where + " slope", rowOf(all, "slope"), "the best slope-scaled bias for both views",
-                 i == 0 ? "Acne on the cube." : "Light where there should be shadow on the wall.");
+                 artefact);
     figure.panel(where + " adaptive", rowOf(all, "adaptive"), "adaptive, K = 0.0001",
                  i == 0 ? "All the acne on the cube is gone." : "No detachment on the wall.");
     figure.panel(where + " dual", rowOf(all, "dual"), "dual, the best offset for both views",
                  "The reference.");
+    options = mapOf(run, "cube", kCubeSide, "none");
+    options.biases = {&inDepth->method};
+    options.userBiases = {inDepth};
+    options.knobs = knobs.cube;
+    const Comparison compressed = figure.compare(where + "-compressed", options);
+    figure.panel(where + " constant, compressed", rowOf(compressed, inDepth->name),
+                 "the best constant for both views, of the depth as a cube's perspective compresses it",
+                 artefact);
   }
 }
 
@@ -134,20 +167,20 @@ void figure8(PaperRun& run) {
   CompareOptions options = volumeOf(run, {}, VolumeSource::Resample, VolumeFit::Full, "constant,adaptive");
   options.tune = true;
   const Comparison paper = figure.compare("resampled", options);
-  figure.panel(" constant", rowOf(paper, "constant", "none", true),
+  figure.panel("constant", rowOf(paper, "constant", "none", true),
                "the best constant; resampled, full sphere",
                "Some acne on the arch, and detachment on the distant curtain already.");
-  figure.panel(" adaptive", rowOf(paper, "adaptive"), "adaptive; resampled, full sphere",
+  figure.panel("adaptive", rowOf(paper, "adaptive"), "adaptive; resampled, full sphere",
                "Less acne, and more detail of shadows kept.");
-  figure.exactPanel(" reference", paper, "the exact shadow",
+  figure.exactPanel("reference", paper, "the exact shadow",
                     "The reference: a map of 8192 × 8192 texels (here: traced rays).");
   options = volumeOf(run, {}, VolumeSource::Direct, VolumeFit::Frustum, "constant,adaptive");
   options.tune = true;
   const Comparison ours = figure.compare("direct", options);
-  figure.panel(" constant, direct", rowOf(ours, "constant", "none", true),
-               "the best constant; drawn into the columns, what the camera sees", "(Not in the paper.)");
-  figure.panel(" adaptive, direct", rowOf(ours, "adaptive"),
-               "adaptive; drawn into the columns, what the camera sees", "(Not in the paper.)");
+  figure.panel("constant, direct", rowOf(ours, "constant", "none", true),
+               "the best constant; drawn into the columns, what the camera sees (not in the paper)", "");
+  figure.panel("adaptive, direct", rowOf(ours, "adaptive"),
+               "adaptive; drawn into the columns, what the camera sees (not in the paper)", "");
 }
 
 // Figure 9: how edge-on to the light the pixels are that the bias gets wrong, and what they weigh once
@@ -158,8 +191,8 @@ void figure9(PaperRun& run) {
   const CompareOptions options = mapOf(run, "directional", 1024, "adaptive");
   const Comparison all = figure.compare("directional", options);
   const Row& row = rowOf(all, "adaptive");
-  figure.panel(" left", row, "adaptive: visibility alone", "Noise, from shifting too far.", "visibility");
-  figure.panel(" center", row, "adaptive: shaded", "The noise is invisible under Lambertian shading.",
+  figure.panel("left", row, "adaptive: visibility alone", "Noise, from shifting too far.", "visibility");
+  figure.panel("center", row, "adaptive: shaded", "The noise is invisible under Lambertian shading.",
                "beauty");
 
   const Parameterization& map = *parseMaps("directional").front();
@@ -184,10 +217,10 @@ void figure9(PaperRun& run) {
     wrongCosine += cosine;
     edgeOn += cosine < 0.1 ? 1.0 : 0.0;  // within 6 degrees of the light's direction
   }
-  figure.number("pixels", " acne and leak", wrongCount);
-  figure.number("pixels", " of them edge-on", edgeOn);
-  figure.number("cosine", " lit", litCosine / std::max(litCount, 1.0));
-  if (wrongCount > 0.0) figure.number("cosine", " acne and leak", wrongCosine / wrongCount);
+  figure.number("pixels", "acne and leak", wrongCount);
+  figure.number("pixels", "of them edge-on", edgeOn);
+  figure.number("cosine", "lit", litCosine / std::max(litCount, 1.0));
+  if (wrongCount > 0.0) figure.number("cosine", "acne and leak", wrongCosine / wrongCount);
 }
 
 void figure12(PaperRun& run) {
@@ -199,11 +232,11 @@ void figure12(PaperRun& run) {
         WindowFit::None;  // the paper's light is far from the object, and the map holds all
     const Comparison all = figure.compare(fmt::format("{}", side), options);
     figure.panel(
-        fmt::format(" {}", side), rowOf(all, "adaptive"), fmt::format("adaptive, {} texels a side", side),
+        fmt::format("{}", side), rowOf(all, "adaptive"), fmt::format("adaptive, {} texels a side", side),
         side == 1024 ? "Most false shadows are gone."
                      : "False shadow in the corners of the wall and in concave parts, and detachment.");
-    figure.panel(fmt::format(" {}, no bias", side), rowOf(all, "none"),
-                 fmt::format("no bias, {} texels a side", side), "(Not in the paper.)");
+    figure.panel(fmt::format("{}, no bias", side), rowOf(all, "none"),
+                 fmt::format("no bias, {} texels a side", side), "");
   }
 }
 
@@ -221,10 +254,17 @@ void figure13(PaperRun& run) {
     const Comparison all =
         figure.compare(fmt::format("{}", side),
                        volumeOf(run, size, VolumeSource::Resample, VolumeFit::Full, "none,adaptive"));
-    figure.panel(fmt::format(" {}", side), rowOf(all, "adaptive"),
+    figure.panel(fmt::format("{}", side), rowOf(all, "adaptive"),
                  fmt::format("adaptive, {} × {} × {} voxels", size.alpha, size.theta, size.phi),
                  side == 1024 ? "Most acne is gone." : "Acne begins to appear.");
-    figure.number("acne", fmt::format(" {}, no bias", side), static_cast<double>(rowOf(all, "none").acne));
+    figure.number("acne", fmt::format("{}, no bias", side), static_cast<double>(rowOf(all, "none").acne));
+    const Comparison direct =
+        figure.compare(fmt::format("{}-direct", side),
+                       volumeOf(run, size, VolumeSource::Direct, VolumeFit::Full, "none,adaptive"));
+    figure.panel(fmt::format("{}, direct", side), rowOf(direct, "adaptive"),
+                 "adaptive, as many voxels, drawn into the columns (not in the paper)", "");
+    figure.number("acne", fmt::format("{}, direct, no bias", side),
+                  static_cast<double>(rowOf(direct, "none").acne));
   }
 }
 
