@@ -37,6 +37,7 @@ std::string compareCommand(const Session& session, const CompareOptions& options
                         volumeSourceName(map.volumeSource), volumeFitName(map.volumeFit));
   if (!isVolume || map.volumeSource == VolumeSource::Resample)
     line += fmt::format(" --map-size {}", options.mapSide);
+  if (map.fit != WindowFit::Focused) line += fmt::format(" --fit {}", windowFitName(map.fit));
   if (options.cull == CullMode::None) line += " --cull none";
   std::string biases, filters;
   for (const BiasMethod* bias : options.biases)

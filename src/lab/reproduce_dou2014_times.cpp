@@ -60,7 +60,7 @@ void table1(PaperRun& run) {
 }
 
 // A paraboloid is what the paper times. Two layers of two hemispheres take 9 s to draw with 8192 texels a
-// side on a CPU device, and 2 GiB: it ends at 4096, and a spot map goes on to 8192.
+// side on a CPU device, and more than 1 GiB: it ends at 4096, and a spot map goes on to 8192.
 struct Curve {
   const char* map;
   int mostTexels;

@@ -59,6 +59,7 @@ View tallyView(const Reproduction& reproduction) {
 }
 
 View pictureView(const std::string& path, bool asJpeg, const std::string& alt, ReportPictureShelf& shelf) {
+  if (path.empty()) return View(false);
   const std::optional<EmbeddedPicture> picture = shelf.embed(path, asJpeg);
   // A picture that another panel holds already is not shown twice.
   if (!picture || picture->dataUri.empty()) return View(false);
@@ -81,19 +82,15 @@ View panelView(const Figure& figure, const Panel& panel, size_t index, ReportPic
   view.set("counts", orNothing(panel.counts));
   view.set("command", orNothing(panel.command));
   View pictures = viewList();
-  size_t count = 0;
-  const std::array<std::pair<const std::string*, const char*>, 2> sources = {
-      {{&panel.picture, "shaded"}, {&panel.labels, panel.counts.empty() ? "exact shadow" : "labels"}}};
-  for (const auto& [path, kind] : sources) {
-    if (path->empty()) continue;
-    const View picture = pictureView(*path, path == &panel.picture,
-                                     fmt::format("Figure {} ({}), {}", figure.id, panel.name, kind), shelf);
-    if (picture.is_false()) continue;
-    pictures.push_back(picture);
-    ++count;
-  }
+  const std::string alt = fmt::format("Figure {} ({}), ", figure.id, panel.name);
+  const bool isShaded = panel.picture.find(".visibility.") == std::string::npos;
+  const View shown = pictureView(panel.picture, isShaded, alt + (isShaded ? "shaded" : "visibility"), shelf);
+  const View labels =
+      pictureView(panel.labels, false, alt + (panel.counts.empty() ? "exact shadow" : "labels"), shelf);
+  for (const View& picture : {shown, labels})
+    if (!picture.is_false()) pictures.push_back(picture);
   view.set("pictures", pictures);
-  view.set("lone", count < 2);
+  view.set("sameLabels", !panel.labels.empty() && labels.is_false());
   return view;
 }
 
