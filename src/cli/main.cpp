@@ -29,9 +29,10 @@ int parseAndRun(int argc, char** argv) {
       "compiled shaders (empty: no cache).");
   app.option_defaults()->always_capture_default(false);
   std::vector<std::pair<const char*, Run>> verbs = {
-      {"compare", addCompareVerb(app)}, {"render", addRenderVerb(app)}, {"report", addReportVerb(app)},
-      {"fog", addFogVerb(app)},         {"vsv", addVsvVerb(app)},       {"scene", addSceneVerb(app)},
-      {"bench", addBenchVerb(app)},
+      {"compare", addCompareVerb(app)}, {"render", addRenderVerb(app)},
+      {"report", addReportVerb(app)},   {"fog", addFogVerb(app)},
+      {"vsv", addVsvVerb(app)},         {"scene", addSceneVerb(app)},
+      {"bench", addBenchVerb(app)},     {"reproduce", addReproduceVerb(app)},
       {"info", addInfoVerb(app)}};
   try {
     app.parse(argc, argv);

@@ -24,5 +24,6 @@ Run addFogVerb(CLI::App& app);
 Run addSceneVerb(CLI::App& app);
 Run addInfoVerb(CLI::App& app);
 Run addBenchVerb(CLI::App& app);
+Run addReproduceVerb(CLI::App& app);
 
 }  // namespace gnomon

@@ -142,14 +142,16 @@ class MapComparison {
     for (const BiasMethod* bias : options_.biases)
       entries.push_back({.method = methodFor(session_, options_, *bias)});
     if (!options_.tune) return entries;
-    Robustness robustness(session_, exact_, options_, parameterization_);
+    std::optional<Robustness> robustness;
+    if (options_.tuneElsewhere) robustness.emplace(session_, exact_, options_, parameterization_);
     Trial trial(session_, passes_, exact_, *maps_);
     const size_t count = entries.size();
     for (size_t i = 0; i < count; ++i) {
       if (knobsOf(*entries[i].method.bias).empty()) continue;
       step(fmt::format("{}, searching its best knob", entries[i].method.bias->name));
       const TunedMethod tuned = tune(trial, entries[i].method);
-      entries.push_back({.method = tuned.method, .tuning = robustness.judge(tuned)});
+      entries.push_back(
+          {.method = tuned.method, .tuning = robustness ? robustness->judge(tuned) : tuningOf(tuned)});
     }
     return entries;
   }
@@ -410,7 +412,7 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   const bool severalLights = jobs.size() > options.maps.size();
   int steps = 0;
   for (const Job& job : jobs) steps += stepsPerMap(optionsFor(options, *job.map));
-  Progress progress("compare", steps);
+  Progress progress(options.progressTitle, steps);
   for (const auto& [map, light, number] : jobs) {
     const CompareOptions own = optionsFor(options, *map);
     const std::string folder = severalLights ? fmt::format("{}/light{}", map->name(), number) : map->name();

@@ -30,7 +30,9 @@ struct CompareOptions {
   int epsilonAt = glsl::kEpsilonAtOccluder;
   std::vector<KnobValue> knobs;  // that differ from their defaults
   bool tune = false;  // each method with a knob also at its best value, and how good that is elsewhere
-  int repeats = 5;    // of every timed stage; at least 1
+  bool tuneElsewhere = true;  // the latter
+  std::string progressTitle = "compare";
+  int repeats = 5;               // of every timed stage; at least 1
   std::filesystem::path outDir;  // empty: no pictures
 };
 

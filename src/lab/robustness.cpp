@@ -94,16 +94,23 @@ Elsewhere Robustness::judgeAt(Place& place, const TunedMethod& tuned) {
   return elsewhere;
 }
 
-Tuning Robustness::judge(const TunedMethod& tuned) {
+Tuning tuningOf(const TunedMethod& tuned) {
   const BiasKnob& knob = knobsOf(*tuned.method.bias).front();
-  return {.knob = knob.name,
-          .value = static_cast<double>(tuned.method.params.*knob.field),
-          .unit = unitName(knob.unit),
-          .evaluations = tuned.evaluations,
-          .otherCamera = otherCamera_ ? std::optional(judgeAt(*otherCamera_, tuned)) : std::nullopt,
-          .otherCameraName = otherSession_->camera().name,
-          .otherMapSize = judgeAt(*otherMapSize_, tuned),
-          .otherMapSide = otherMapSize_->maps->fitted().map.side};
+  Tuning tuning;
+  tuning.knob = knob.name;
+  tuning.value = static_cast<double>(tuned.method.params.*knob.field);
+  tuning.unit = unitName(knob.unit);
+  tuning.evaluations = tuned.evaluations;
+  return tuning;
+}
+
+Tuning Robustness::judge(const TunedMethod& tuned) {
+  Tuning tuning = tuningOf(tuned);
+  if (otherCamera_) tuning.otherCamera = judgeAt(*otherCamera_, tuned);
+  tuning.otherCameraName = otherSession_->camera().name;
+  tuning.otherMapSize = judgeAt(*otherMapSize_, tuned);
+  tuning.otherMapSide = otherMapSize_->maps->fitted().map.side;
+  return tuning;
 }
 
 }  // namespace gnomon

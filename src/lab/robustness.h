@@ -12,6 +12,9 @@ namespace gnomon {
 inline constexpr double kOrbitDegrees = 25.0;
 Camera orbitedCamera(const Session& session);
 
+// What was tuned, and not yet how good it is elsewhere.
+Tuning tuningOf(const TunedMethod& tuned);
+
 class Robustness {
  public:
   Robustness(const Session& session, const Exact& exact, const CompareOptions& options,

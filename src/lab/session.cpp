@@ -214,6 +214,13 @@ Judged judge(const Session& session, Passes& passes, const DrawnMap& map, const 
   return judged;
 }
 
+double timeRadiance(const Session& session, Passes& passes) {
+  gpu::Commands commands(session.device(), "radiance");
+  passes.radiance.record(commands, session.buffers(), session.gbuffer(), passes.visibility.uniforms(),
+                         passes.visibility.visibility());
+  return commands.submitAndWait().wallMs;
+}
+
 ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact,
                       std::span<const float> visibility) {
   // Exposure: a white surface that faces the light at the median distance of what is lit has radiance 0.75.
@@ -235,11 +242,7 @@ ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact
   shade.ambient = glm::vec3(0.07f, 0.08f, 0.10f);
   passes.visibility.setUniforms(shade);
   gpu::upload(session.device(), passes.visibility.visibility(), std::as_bytes(visibility));
-
-  gpu::Commands commands(session.device(), "radiance");
-  passes.radiance.record(commands, session.buffers(), session.gbuffer(), passes.visibility.uniforms(),
-                         passes.visibility.visibility());
-  commands.submitAndWait();
+  timeRadiance(session, passes);
   ImageF image(session.view().width, session.view().height, 3);
   image.values = gpu::downloadAs<float>(session.device(), passes.radiance.radiance());
   return image;

@@ -139,6 +139,9 @@ Verdict verdictOf(const glsl::PixelDiagnosis& pixel);
 ImageF renderRadiance(const Session& session, Passes& passes, const Exact& exact,
                       std::span<const float> visibility);
 
+// The shading pass alone, by what the passes hold; wall clock.
+double timeRadiance(const Session& session, Passes& passes);
+
 // The light ray through the centre of the texel that decided a pixel, in the world.
 RayD texelRayW(const FittedMap& fitted, uint32_t texelWord);
 

@@ -89,9 +89,13 @@ void readHeader(UserBias& bias) {
 }  // namespace
 
 std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path) {
+  return readUserBias(path, readFile(path));
+}
+
+std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source) {
   auto bias = std::make_unique<UserBias>();
   bias->path = path.string();
-  bias->source = readFile(path);
+  bias->source = source;
   bias->name = path.stem().string();
   bias->sentence = "A bias of your own: " + bias->path;
   readHeader(*bias);

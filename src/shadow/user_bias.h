@@ -31,5 +31,7 @@ struct UserBias {
 
 // Throws WorldError: no such file, or a "//!" line that is not understood ("file:line: ...").
 std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path);
+// The same of a text; `path` is what complaints name.
+std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source);
 
 }  // namespace gnomon

@@ -142,6 +142,15 @@ TEST_F(CliTest, FogMarchesADensity) {
   EXPECT_FALSE(json.at("medium").at("density").is_null());
 }
 
+TEST_F(CliTest, ReproduceRefusesWhatItCannotRunInOneLine) {
+  expectMistake("reproduce", 2, "PAPER");
+  expectMistake("reproduce williams1978", 2, "no such paper; choose from weiskopf2003, dou2014");
+  expectMistake("reproduce dou2014 --scale 7", 2, "--scale 7 is outside 0.05..1");
+  expectMistake("reproduce dou2014 --repeats 0", 2, "--repeats");
+  expectMistake("reproduce weiskopf2003 --scene @/nowhere.glb -o @/out", 1, "nowhere.glb");
+  EXPECT_EQ(fileCount(), 0u);
+}
+
 TEST_F(CliTest, EveryBiasKnobIsAFlag) {
   const Result result =
       run("compare corner --biases constant,adaptive --constant-offset 0.125 --adaptive-k 0.002 --epsilon-at "

@@ -1,0 +1,65 @@
+#include "base/error.h"
+#include "base/file.h"
+#include "base/progress.h"
+#include "cli/common_flags.h"
+#include "cli/verbs.h"
+#include "lab/reproduce.h"
+
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace gnomon {
+
+namespace {
+
+struct ReproduceFlags {
+  ReproduceOptions options;
+  std::string out;
+  std::string device;
+};
+
+int runReproduce(const ReproduceFlags& flags) {
+  ReproduceOptions options = flags.options;
+  options.outDir = flags.out;
+  const Reproduction reproduction = reproduce({.name = flags.device}, options);
+  if (!flags.out.empty()) {
+    writeTextFile(options.outDir / "results.json", reproductionJson(reproduction, options, commandLine()));
+    writeTextFile(options.outDir / "report.html", reproductionHtml(reproduction, options, commandLine()));
+  }
+  std::fputs(reproductionText(reproduction).c_str(), stdout);
+  if (!flags.out.empty())
+    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(),
+                flags.out.c_str());
+  return 0;
+}
+
+}  // namespace
+
+Run addReproduceVerb(CLI::App& app) {
+  auto flags = std::make_shared<ReproduceFlags>();
+  CLI::App* verb = app.add_subcommand(
+      "reproduce", "a paper's figures and tables made again, and whether its claims hold here");
+  std::string papers;
+  for (const std::string& paper : reproduciblePapers()) papers += (papers.empty() ? "" : " or ") + paper;
+  verb->add_option("PAPER", flags->options.paper, papers)->required();
+  verb->add_option("-o,--out", flags->out,
+                   "folder for report.html, pictures and results.json; none: a line a claim only");
+  verb->add_option("--scene", flags->options.scene,
+                   "run the same on this glTF file or generated scene, with its first camera and its first "
+                   "light that each map can take; default: the scene that each figure calls for");
+  verb->add_option("--scale", flags->options.scale,
+                   "of the sides of pictures, maps and volumes, for a quick look: 0.05..1")
+      ->capture_default_str();
+  verb->add_option("--repeats", flags->options.repeats, "of every timed frame; medians are told")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb->add_option("--device", flags->device,
+                   "part of a Vulkan device's name; default: a GPU where there is one, else the CPU device");
+  verb->add_flag_callback(
+      "--quiet", [] { Progress::setQuiet(true); }, "no progress on the terminal");
+  return [flags] { return runReproduce(*flags); };
+}
+
+}  // namespace gnomon

@@ -1,0 +1,28 @@
+//! name: ray-not-unit
+//! sentence: The adaptive bias of Dou et al. 2014 on a paraboloid, its ray (x, y, zH) taken for a unit one.
+//! knob: k one 0 1 0.0001
+#ifndef RAY_NOT_UNIT_GLSL
+#define RAY_NOT_UNIT_GLSL
+
+#include "shared/bias.glsl"
+
+GNOMON_SHARED_BEGIN
+
+// Section 3.2: (x, y) is the texel's centre on the paraboloid's disc, zH the height of the paraboloid above it.
+GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
+  vec2 uv = mapTexelCenter(map, tap.texel);
+  float x = uv.x * 2.0f - 1.0f;
+  float y = 1.0f - uv.y * 2.0f;
+  float zH = 0.5f - 0.5f * (x * x + y * y);
+  // Its length is 1/2 + (x^2 + y^2)/2, so a distance in units of it is not one in metres.
+  vec3 ray = vec3(x, y, paraboloidAxisZ(tap.layer) * zH);
+  float approach = dot(receiver.normalL, ray);
+  float distance_ = approach == 0.0f ? -1.0f : dot(receiver.normalL, receiver.posL) / approach;
+  float depth = (distance_ - map.zNear) / (map.zFar - map.zNear);
+  if (!(distance_ >= 0.0f && depth >= 0.0f && depth <= 1.0f)) depth = mapDepth(map, tap.layer, receiver.posL);
+  float epsilon = map.sceneScale * params.userKnob / (map.zFar - map.zNear);
+  return depth - epsilon <= tap.z1;
+}
+
+GNOMON_SHARED_END
+#endif
