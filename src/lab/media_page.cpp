@@ -231,8 +231,13 @@ void setLead(View& page, const MediaData& media) {
   page.set("leadName", first.name());
   page.set("leadId", rowId(1));
   page.set("leadError", first.relRmse ? View(share(*first.relRmse)) : View(false));
-  page.set("leadFaster", terms != nullptr ? View(factorText(terms->faster)) : View(false));
-  page.set("leadBetter", terms != nullptr ? View(factorText(terms->better)) : View(false));
+  // A bound says something where it lies on the side it bounds.
+  const auto tells = [](const MediaDataFactor& factor) {
+    return factor.bound == "exact" || (factor.factor >= 1.0) == (factor.bound == "at_least");
+  };
+  const bool both = terms != nullptr && tells(terms->faster) && tells(terms->better);
+  page.set("leadFaster", both ? View(factorText(terms->faster)) : View(false));
+  page.set("leadBetter", both ? View(factorText(terms->better)) : View(false));
 }
 
 }  // namespace

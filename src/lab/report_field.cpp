@@ -22,7 +22,7 @@ std::string kindOfPath(const std::string& path) {
 
 void ReportField::fail(const std::string& what) const {
   throw fileError(file_, fmt::format("{} {}", where_.empty() ? "its value" : where_, what),
-                  "write it anew with gnomon compare -o");
+                  "write it anew with gnomon compare -o or gnomon fog -o");
 }
 
 bool ReportField::has(const char* key) const {

@@ -47,6 +47,22 @@ TEST(Plot, TheFrontHoldsWhatNothingCheaperMatches) {
   EXPECT_EQ(std::count(plot.frontPath.begin(), plot.frontPath.end(), 'V'), 3);
 }
 
+TEST(Plot, OnALogarithmicAxisEqualFactorsAreEqualSteps) {
+  const std::vector<PlotItem> items = {{"a", 1.0, 0.1}, {"b", 10.0, 0.01}, {"c", 1000.0, 0.001}};
+  const Plot plot = layOutPlot(items, 980, 440, CostAxis::Logarithmic);
+  EXPECT_NEAR(2.0 * (plot.marks[1].x - plot.marks[0].x), plot.marks[2].x - plot.marks[1].x, 1e-9);
+  EXPECT_GT(plot.marks[0].x, plot.left);
+  EXPECT_LT(plot.marks[2].x, plot.right);
+  for (const PlotTick& tick : plot.costTicks)
+    EXPECT_NEAR(tick.at, plot.xOfCost(std::stod(tick.text)), 1e-9) << tick.text;
+  EXPECT_GE(plot.costTicks.size(), 4u);
+}
+
+TEST(DecadeSteps, AreOneTwoFiveOrPowersOfTenAlone) {
+  EXPECT_EQ(decadeSteps(3.0, 60.0, 9), (std::vector<double>{5.0, 10.0, 20.0, 50.0}));
+  EXPECT_EQ(decadeSteps(3.0, 6000.0, 5), (std::vector<double>{10.0, 100.0, 1000.0}));
+}
+
 TEST(Plot, LabelsStayApartAndWithinTheFrame) {
   for (const double width : {980.0, 368.0}) {
     std::vector<PlotItem> items = kItems;
