@@ -68,8 +68,8 @@ void table1(PaperRun& run) {
   run.addTable(std::move(table));
 }
 
-// A paraboloid is what the paper times. Two layers of two hemispheres take 9 s to draw with 8192 texels a
-// side on a CPU device, and more than 1 GiB: it ends at 4096, and a spot map goes on to 8192.
+// A paraboloid is what the paper times. Two layers of two hemispheres take many seconds to draw with 8192
+// texels a side on a CPU device, and more than 1 GiB: it ends at 4096, and a spot map goes on to 8192.
 struct Curve {
   const char* map;
   int mostTexels;
@@ -85,7 +85,7 @@ void figure10(PaperRun& run) {
       .title = "A frame's cost against the map's resolution",
       .setup = fmt::format(
           "{}, {} triangles, {} × {} pixels; dual paraboloids of 512 to 4096 texels a side (8192 is left "
-          "out: drawing its two layers takes 9 s on a CPU device) and spot maps of 512 to 8192. The "
+          "out: drawing its two layers takes many seconds on a CPU device) and spot maps of 512 to 8192. The "
           "paper's scene has 19 million polygons.",
           session.scene().name, triangleCount(session.scene()), session.view().width, session.view().height),
       .panels = {},
