@@ -245,36 +245,42 @@ std::vector<FrameCost> timeFrames(const Session& session, const Parameterization
                                                     fitMap(session, map, exact, kind.mapSide, {}).fitted,
                                                     exact, CullMode::Solids);
   Progress progress(progressTitle, repeats + 1);
-  std::vector<std::vector<double>> mapMs(kinds.size()), shadeMs(kinds.size()), frameMs(kinds.size()),
-      ratios(kinds.size());
+  std::vector<std::vector<double>> mapMs(kinds.size());
+  std::vector<std::vector<double>> visibilityMs = mapMs, shadeMs = mapMs, frameMs = mapMs, ratios = mapMs;
   for (int round = -1; round < repeats; ++round) {  // round -1 compiles the pipelines
     progress.step(round < 0 ? "first frames" : fmt::format("round {} of {} of frames", round + 1, repeats));
     double first = 0.0;
     std::map<std::pair<int, MapContent>, double> drawn;  // methods that share a map share what it took
     for (size_t i = 0; i < kinds.size(); ++i) {
       const FrameKind& kind = kinds[i];
-      double build = 0.0, shade = session.timeGBuffer();
+      double build = 0.0, visibility = 0.0, rest = session.timeGBuffer();
       if (kind.bias != nullptr) {
         const Method method = methodFor(session, {}, *kind.bias);
         MapSet& set = *maps.at(kind.mapSide);
         const std::pair key(kind.mapSide, kind.bias->content);
         if (!drawn.contains(key)) drawn[key] = set.redraw(kind.bias->content);
         build = drawn[key];
-        shade +=
+        visibility =
             timeVisibility(session, passes, set.with(kind.bias->content), exact, method, kind.filter->id);
       }
-      shade += timeRadiance(session, passes);
-      if (i == 0) first = build + shade;
+      rest += timeRadiance(session, passes);
+      const double frame = build + visibility + rest;
+      if (i == 0) first = frame;
       if (round < 0) continue;
       mapMs[i].push_back(build);
-      shadeMs[i].push_back(shade);
-      frameMs[i].push_back(build + shade);
-      ratios[i].push_back((build + shade) / first);
+      visibilityMs[i].push_back(visibility);
+      shadeMs[i].push_back(visibility + rest);
+      frameMs[i].push_back(frame);
+      ratios[i].push_back(frame / first);
     }
   }
   std::vector<FrameCost> costs;
   for (size_t i = 0; i < kinds.size(); ++i)
-    costs.push_back({median(mapMs[i]), median(shadeMs[i]), median(frameMs[i]), median(ratios[i])});
+    costs.push_back({.mapMs = median(mapMs[i]),
+                     .visibilityMs = median(visibilityMs[i]),
+                     .shadeMs = median(shadeMs[i]),
+                     .frameMs = median(frameMs[i]),
+                     .ratio = median(ratios[i])});
   return costs;
 }
 

@@ -100,7 +100,7 @@ struct FrameKind {
   int mapSide = 0;  // texels
 };
 struct FrameCost {
-  double mapMs = 0.0, shadeMs = 0.0, frameMs = 0.0;  // medians; shading is all but the map
+  double mapMs = 0.0, visibilityMs = 0.0, shadeMs = 0.0, frameMs = 0.0;  // medians; shading: all but the map
   double ratio = 0.0;  // of the frame to the first kind's, median over the rounds
 };
 // All kinds once a round, so that a machine that slows down slows all of them.
