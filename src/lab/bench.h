@@ -83,6 +83,7 @@ class BenchStages {
   void addMaps();
   void addVisibility();
   void addVolumes();
+  void addMedia();
   void add(std::string name, std::string ratioTo, std::function<double()> run);
 
   const Session& session_;

@@ -1,5 +1,6 @@
 #include "lab/bench.h"
 
+#include "lab/fog_view.h"
 #include "lab/map_set.h"
 #include "lab/maps.h"
 #include "omni/cube_map.h"
@@ -38,12 +39,21 @@ struct BenchMap {
   std::unique_ptr<MapSet> set;
 };
 
+// A medium around it, with a volume and a cube that are fitted to all view rays.
+struct BenchMedium {
+  Exact exact;
+  FogView view;
+  DrawnMap volume, cube;
+  MediaPass pass;
+};
+
 struct BenchStages::Maps {
   Passes passes;
   std::deque<BenchMap> all;  // pointers into it stay
   gpu::Buffer from, to;
   gpu::Image cleared;
   std::vector<std::byte> hostFrom, hostTo;
+  std::unique_ptr<BenchMedium> medium;
 
   Maps(const Session& session)
       : passes(session.device(), session.view()),
@@ -83,6 +93,7 @@ BenchStages::BenchStages(const Session& session, const BenchOptions& options)
   addVisibility();
   addGBufferAndTruth();
   addVolumes();
+  addMedia();
 }
 
 BenchStages::~BenchStages() = default;
@@ -206,6 +217,48 @@ void BenchStages::addVolumes() {
         });
     }
   }
+}
+
+void BenchStages::addMedia() {
+  const Exact& exact = maps_->named("cube").exact;
+  FogView view = lookIntoFog(session_, maps_->passes, {exact.source}, {});
+  const auto draw = [&](const Parameterization& kind) {
+    const FittedMap fitted = kind.fit({.scene = session_.scene(),
+                                       .light = exact.light,
+                                       .receiversW = view.receiversW,
+                                       .camera = session_.view(),
+                                       .options = options_.mapOptions});
+    return drawMap(session_, maps_->passes.renderers, fitted, exact, MapContent::OneLayer, options_.cull);
+  };
+  DrawnMap volume = draw(volumeParameterization()), cube = draw(cubeParameterization());
+  maps_->medium.reset(
+      new BenchMedium{exact, std::move(view), std::move(volume), std::move(cube),
+                      MediaPass(session_.device(), session_.view().width, session_.view().height)});
+  BenchMedium& medium = *maps_->medium;
+  medium.pass.setMedium(session_.view(), medium.view.medium);
+  const auto integrate = [&](std::string name, const char* base, const MediaMethod& method) {
+    add(std::move(name), base, [this, &medium, method] {
+      const MediaVisibility visibility = method.integrator == Integrator::March
+                                             ? MediaVisibility(*medium.cube.image)
+                                             : MediaVisibility(*medium.volume.volume);
+      gpu::Commands commands(session_.device(), "media");
+      medium.pass.record(commands, session_.buffers(), session_.gbuffer(), visibility,
+                         medium.view.sources.front(), method, false);
+      return commands.submitAndWait().wallMs;
+    });
+  };
+  constexpr const char* kBase = "media/march 32 steps";
+  integrate(kBase, kBaseVisibility, {.integrator = Integrator::March, .steps = 32});
+  for (const int steps : {128, 512})
+    integrate(fmt::format("media/march {} steps", steps), kBase,
+              {.integrator = Integrator::March, .steps = steps});
+  add("media/table of the running integral", kBase, [this, &medium] {
+    gpu::Commands commands(session_.device(), "media table");
+    medium.pass.recordTable(commands, *medium.volume.volume, medium.view.sources.front());
+    return commands.submitAndWait().wallMs;
+  });
+  for (const Integrator integrator : {Integrator::Runs, Integrator::Bits, Integrator::Popcount})
+    integrate(fmt::format("media/{}", integratorName(integrator)), kBase, {.integrator = integrator});
 }
 
 }  // namespace gnomon
