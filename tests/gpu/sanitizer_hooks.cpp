@@ -8,6 +8,11 @@ extern "C" const char* __lsan_default_suppressions() {
          "leak:libVkLayer\n";
 }
 
+// And not a word of what was suppressed: a program's messages are its own.
+extern "C" const char* __lsan_default_options() {
+  return "print_suppressions=0";
+}
+
 // Libraries are never unloaded, else a leak's module would have no name to match. The Vulkan loader calls
 // this.
 extern "C" int dlclose(void*) noexcept {
