@@ -70,9 +70,11 @@ class Diagram {
           "<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' stroke='#ccc'/><text x='{:.1f}' y='{:.1f}' "
           "text-anchor='end'>{:g}</text>\n",
           x_, yOf(ms), x_ + kPlotWidth, yOf(ms), x_ - 6.0, yOf(ms) + 4.0, ms);
-    for (const Growth::Point& point : growth_.points)
+    // Long names of near sizes stand in two rows.
+    for (size_t i = 0; i < growth_.points.size(); ++i)
       text += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle' font-size='10'>{}</text>\n",
-                          xOf(point.size), y_ + kPlotHeight + 16.0, escaped(point.name));
+                          xOf(growth_.points[i].size), y_ + kPlotHeight + (i % 2 == 0 ? 14.0 : 25.0),
+                          escaped(growth_.points[i].name));
     for (size_t stage = 0; stage < growth_.stages.size(); ++stage) text += curve(stage);
     return text;
   }
@@ -93,7 +95,7 @@ class Diagram {
       path +=
           fmt::format("{}{:.1f},{:.1f}", path.empty() ? "M" : " L", xOf(point.size), yOf(point.ms[stage]));
     const double legendX = x_ + 215.0 * static_cast<double>(stage % 2);
-    const double legendY = y_ + kPlotHeight + 40.0 + 18.0 * static_cast<double>(stage / 2);
+    const double legendY = y_ + kPlotHeight + 48.0 + 18.0 * static_cast<double>(stage / 2);
     return fmt::format(
         "<path d='{}' fill='none' stroke='{}' stroke-width='2'/><line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' "
         "y2='{:.1f}' stroke='{}' stroke-width='3'/><text x='{:.1f}' y='{:.1f}'>{}</text>\n",

@@ -2,6 +2,7 @@
 #include "base/image.h"
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
+#include "tests/golden_picture.h"
 #include "tests/shadow/map_fixture.h"
 #include "truth/labels.h"
 
@@ -76,21 +77,6 @@ class VisibleOmni : public gpu::GpuTest {
     result.visibility = gpu::downloadAs<float>(device(), pass.visibility());
     return result;
   }
-
-  // Blessed by tools/bless, in a commit of its own. On lavapipe equal to the bit; another device may differ
-  // in half a percent of the pixels, at decisions within its rounding.
-  void compareWithGolden(const std::string& name, const std::vector<float>& visibility, int side) {
-    Image8 picture(side, side, 1);
-    for (size_t i = 0; i < visibility.size(); ++i) picture.values[i] = visibility[i] > 0.5f ? 255 : 0;
-    const std::filesystem::path path = std::filesystem::path(GNOMON_TEST_DIR) / "golden" / (name + ".png");
-    if (std::getenv("GNOMON_BLESS") != nullptr) writePng(path, picture);
-    const ImageF golden = readImage(path);
-    ASSERT_EQ(golden.values.size(), picture.values.size());
-    size_t different = 0;
-    for (size_t i = 0; i < golden.values.size(); ++i)
-      different += (golden.values[i] > 0.5f) != (picture.values[i] > 127) ? 1 : 0;
-    EXPECT_LE(different, isLavapipe() ? size_t{0} : golden.values.size() / 200);
-  }
 };
 
 const Parameterization* const kMaps[] = {&cubeParameterization(), &paraboloidParameterization()};
@@ -157,8 +143,8 @@ TEST_F(VisibleOmni, GoldenPictures) {
   for (const Parameterization* map : kMaps) {
     const test::Rendered r = test::render(device(), "contact", *map, 256, 128, CullMode::Solids);
     for (const char* bias : {"none", "constant", "dual", "adaptive"})
-      compareWithGolden(std::string("contact_") + map->name() + "_" + bias,
-                        score(r, findBias(bias)).visibility, 256);
+      test::compareWithGolden(std::string("contact_") + map->name() + "_" + bias,
+                              score(r, findBias(bias)).visibility, 256, isLavapipe());
   }
 }
 
