@@ -15,14 +15,6 @@ uint32_t groups(int count, int size) {
 
 }  // namespace
 
-const gpu::ComputeProgram& VolumeRenderer::program(const char* shader, int constant) const {
-  for (const auto& entry : programs_)
-    if (entry->shader == shader && entry->constant == constant) return entry->program;
-  programs_.push_back(std::make_unique<Entry>(
-      Entry{shader, constant, {device_, {shader, {}}, {{.id = 0, .value = constant}}}}));
-  return programs_.back()->program;
-}
-
 void VolumeRenderer::record(gpu::Commands& commands, const MapRenderer& maps, const SceneBuffers& scene,
                             ShadowVolume& volume, const LightModel& light, CullMode cull) const {
   commands.beginStage("volume source");
@@ -33,7 +25,7 @@ void VolumeRenderer::record(gpu::Commands& commands, const MapRenderer& maps, co
   const glsl::EpipolarGrid& grid = volume.fitted().grid;
   commands.beginStage("volume occluders");
   commands.dispatch(
-      program(kFindOccluders, volume.source().kind()),
+      programs_.get(kFindOccluders, {{.id = 0, .value = volume.source().kind()}}),
       {groups(grid.thetaCount, glsl::kColumnGroupSide), groups(grid.phiCount, glsl::kColumnGroupSide), 1}, {},
       {{glsl::kBindMap, volume.uniforms()},
        {glsl::kBindSourceMap, volume.source().uniforms()},
@@ -56,14 +48,15 @@ void VolumeRenderer::recordBits(gpu::Commands& commands, const ShadowVolume& vol
                                               {glsl::kBindOccluders, volume.occluders()},
                                               {glsl::kBindBits, volume.bits()}};
   if (how == Voxelization::Fused) {
-    commands.dispatch(program(kVoxelize, glsl::kVoxelizeFused), size, {}, bindings);
+    commands.dispatch(programs_.get(kVoxelize, {{.id = 0, .value = glsl::kVoxelizeFused}}), size, {},
+                      bindings);
     return;
   }
   commands.fill(volume.bits(), 0);
   commands.barrier("the volume is cleared -> the first occluded voxels are set");
-  commands.dispatch(program(kVoxelize, glsl::kVoxelizeSeed), size, {}, bindings);
+  commands.dispatch(programs_.get(kVoxelize, {{.id = 0, .value = glsl::kVoxelizeSeed}}), size, {}, bindings);
   commands.barrier("the first occluded voxels are set -> the scan ORs what lies before");
-  commands.dispatch(program(kVoxelize, glsl::kVoxelizeScan), size, {}, bindings);
+  commands.dispatch(programs_.get(kVoxelize, {{.id = 0, .value = glsl::kVoxelizeScan}}), size, {}, bindings);
 }
 
 }  // namespace gnomon

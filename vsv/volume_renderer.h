@@ -17,7 +17,7 @@ enum class Voxelization {
 
 class VolumeRenderer {
  public:
-  explicit VolumeRenderer(const gpu::Device& device) : device_(device) {}
+  explicit VolumeRenderer(const gpu::Device& device) : programs_(device) {}
 
   // Everything; stages "volume source", "volume occluders", "volume bits". `light` and `cull` as for a map.
   void record(gpu::Commands& commands, const MapRenderer& maps, const SceneBuffers& scene,
@@ -27,15 +27,7 @@ class VolumeRenderer {
   void recordBits(gpu::Commands& commands, const ShadowVolume& volume, Voxelization how) const;
 
  private:
-  struct Entry {
-    std::string shader;
-    int constant;
-    gpu::ComputeProgram program;
-  };
-  const gpu::ComputeProgram& program(const char* shader, int constant) const;
-
-  const gpu::Device& device_;
-  mutable std::vector<std::unique_ptr<Entry>> programs_;  // compiled at first use
+  gpu::ComputePrograms programs_;  // compiled at first use
 };
 
 }  // namespace gnomon

@@ -12,7 +12,7 @@ bool volumeAnswers(const BiasMethod& method);
 
 class VolumeVisibility {
  public:
-  explicit VolumeVisibility(const gpu::Device& device) : device_(device) {}
+  explicit VolumeVisibility(const gpu::Device& device) : programs_(device) {}
 
   // `pass` holds the frame's uniforms and takes the result.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
@@ -20,18 +20,7 @@ class VolumeVisibility {
               bool diagnose);
 
  private:
-  struct VariantKey {
-    int32_t method, diagnose, instanced;
-    bool operator==(const VariantKey&) const = default;
-  };
-  struct Variant {
-    VariantKey key;
-    gpu::ComputeProgram program;
-  };
-  const gpu::ComputeProgram& program(const VariantKey& key);
-
-  const gpu::Device& device_;
-  std::vector<std::unique_ptr<Variant>> variants_;
+  gpu::ComputePrograms programs_;  // compiled at first use
 };
 
 }  // namespace gnomon

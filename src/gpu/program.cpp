@@ -215,6 +215,15 @@ ComputeProgram::ComputeProgram(const Device& device, const ShaderSource& shader,
   adopt(device, pipeline);
 }
 
+const ComputeProgram& ComputePrograms::get(const std::string& path,
+                                           const std::vector<Specialization>& specializations) const {
+  for (const auto& entry : entries_)
+    if (entry->path == path && entry->specializations == specializations) return entry->program;
+  entries_.push_back(std::make_unique<Entry>(
+      Entry{path, specializations, ComputeProgram(device_, {path, {}}, specializations)}));
+  return entries_.back()->program;
+}
+
 GraphicsProgram::GraphicsProgram(const Device& device, const GraphicsDesc& desc) {
   GNOMON_CHECK(desc.name != nullptr);
   name_ = desc.name;

@@ -9,6 +9,7 @@
 #include "gpu/shader_compiler.h"
 #include "gpu/specialize.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,23 @@ class ComputeProgram : public Program {
   ComputeProgram() = default;
   ComputeProgram(const Device& device, const ShaderSource& shader,
                  const std::vector<Specialization>& specializations = {});
+};
+
+// Compute programs by shader and constants, each compiled when it is first asked for. References stay good.
+class ComputePrograms {
+ public:
+  explicit ComputePrograms(const Device& device) : device_(device) {}
+  const ComputeProgram& get(const std::string& path,
+                            const std::vector<Specialization>& specializations = {}) const;
+
+ private:
+  struct Entry {
+    std::string path;
+    std::vector<Specialization> specializations;
+    ComputeProgram program;
+  };
+  const Device& device_;
+  mutable std::vector<std::unique_ptr<Entry>> entries_;
 };
 
 struct GraphicsDesc {

@@ -15,6 +15,7 @@ namespace gnomon::gpu {
 struct Specialization {
   uint32_t id = 0;
   int32_t value = 0;
+  bool operator==(const Specialization&) const = default;
 };
 
 // Constants that are not named keep their defaults. Kept on disk as compiled shaders are.

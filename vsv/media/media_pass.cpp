@@ -97,6 +97,7 @@ float defaultReach(const Scene& scene, const glm::vec3& eyeW) {
 
 MediaPass::MediaPass(const gpu::Device& device, int width, int height)
     : device_(device),
+      programs_(device),
       groupCount_(groups(width, glsl::kMediaGroupSide), groups(height, glsl::kMediaGroupSide), 1),
       uniforms_(device, {.name = "media uniforms",
                          .size = sizeof(glsl::MediaUniforms),
@@ -109,19 +110,6 @@ MediaPass::MediaPass(const gpu::Device& device, int width, int height)
       inScattered_(device, {.name = "in-scattered light", .size = pictureBytes(width, height)}),
       surfaces_(device, {.name = "surfaces in the medium", .size = pictureBytes(width, height)}),
       radiance_(device, {.name = "radiance with the medium", .size = pictureBytes(width, height)}) {}
-
-const gpu::ComputeProgram& MediaPass::program(const char* shader,
-                                              const std::vector<gpu::Specialization>& constants) {
-  const auto same = [](const gpu::Specialization& a, const gpu::Specialization& b) {
-    return a.id == b.id && a.value == b.value;
-  };
-  for (const auto& variant : variants_)
-    if (variant->shader == shader && std::ranges::equal(variant->constants, constants, same))
-      return variant->program;
-  variants_.push_back(
-      std::make_unique<Variant>(Variant{shader, constants, {device_, {shader, {}}, constants}}));
-  return variants_.back()->program;
-}
 
 void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& medium,
                           const DensityBuffers* density) {
@@ -142,13 +130,13 @@ void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visi
         .light = pushFor(light, {}, false),
         .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
     const uint32_t side = groups(glsl::kLightDepthSide, glsl::kMediaGroupSide);
-    commands.dispatch(program("vsv/tabulate_light_depth.comp.glsl", {}),
+    commands.dispatch(programs_.get("vsv/tabulate_light_depth.comp.glsl"),
                       {side, side, static_cast<uint32_t>(push.reach.layers)}, gpu::asPush(push),
                       {{glsl::kBindDensity, density_->words},
                        {glsl::kBindDensityPlace, density_->place},
                        {glsl::kBindLightDepth, lightDepth_}});
   } else if (visibility.volume != nullptr) {
-    commands.dispatch(program("vsv/tabulate_scattering.comp.glsl", {}),
+    commands.dispatch(programs_.get("vsv/tabulate_scattering.comp.glsl"),
                       {groups(glsl::kTableRows, glsl::kTableGroupSize), 1, 1}, {},
                       {{glsl::kBindMap, visibility.volume->uniforms()},
                        {glsl::kBindMedia, uniforms_},
@@ -179,13 +167,13 @@ void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const
   } else if (marchesMap) {
     bindings.emplace_back(glsl::kBindMapDepth, visibility.map->depth());
     commands.dispatch(
-        program("vsv/march_map.comp.glsl", {{.id = 0, .value = visibility.map->kind()}, instanced}),
+        programs_.get("vsv/march_map.comp.glsl", {{.id = 0, .value = visibility.map->kind()}, instanced}),
         groupCount_, gpu::asPush(push), bindings);
   } else {
     bindings.emplace_back(glsl::kBindBits, visibility.volume->bits());
     bindings.emplace_back(glsl::kBindRunning, running_);
-    commands.dispatch(program("vsv/integrate_bits.comp.glsl",
-                              {{.id = 0, .value = bitsIntegrator(method.integrator)}, instanced}),
+    commands.dispatch(programs_.get("vsv/integrate_bits.comp.glsl",
+                                    {{.id = 0, .value = bitsIntegrator(method.integrator)}, instanced}),
                       groupCount_, gpu::asPush(push), bindings);
   }
   commands.endStage();
@@ -206,7 +194,7 @@ void MediaPass::recordDensity(gpu::Commands& commands, const MediaVisibility& vi
   const glsl::DensityPush push{
       .light = lightPush, .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
   const int kind = ofMap ? visibility.map->kind() : glsl::kMapEpipolar;
-  commands.dispatch(program("vsv/march_density.comp.glsl", {{.id = 0, .value = kind}, instanced}),
+  commands.dispatch(programs_.get("vsv/march_density.comp.glsl", {{.id = 0, .value = kind}, instanced}),
                     groupCount_, gpu::asPush(push), bindings);
 }
 
@@ -232,14 +220,14 @@ void MediaPass::recordSurfaces(gpu::Commands& commands, const SceneBuffers& scen
   bindings.emplace_back(glsl::kBindEyeDepth, density_ != nullptr ? eyeDepth_ : visibility);
   if (density_ != nullptr) push.reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW);
   commands.beginStage("media surfaces");
-  commands.dispatch(
-      program("vsv/shade_surface_in_medium.comp.glsl", {{.id = 0, .value = density_ != nullptr ? 1 : 0}}),
-      groupCount_, gpu::asPush(push), bindings);
+  commands.dispatch(programs_.get("vsv/shade_surface_in_medium.comp.glsl",
+                                  {{.id = 0, .value = density_ != nullptr ? 1 : 0}}),
+                    groupCount_, gpu::asPush(push), bindings);
   commands.endStage();
 }
 
 void MediaPass::recordSum(gpu::Commands& commands) {
-  commands.dispatch(program("vsv/add_scattered_light.comp.glsl", {}), groupCount_, {},
+  commands.dispatch(programs_.get("vsv/add_scattered_light.comp.glsl"), groupCount_, {},
                     {{glsl::kBindMedia, uniforms_},
                      {glsl::kBindInScattered, inScattered_},
                      {glsl::kBindSurface, surfaces_},

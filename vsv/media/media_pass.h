@@ -90,24 +90,18 @@ class MediaPass {
   const gpu::Buffer& radiance() const { return radiance_; }
 
  private:
-  struct Variant {
-    std::string shader;
-    std::vector<gpu::Specialization> constants;
-    gpu::ComputeProgram program;
-  };
-  const gpu::ComputeProgram& program(const char* shader, const std::vector<gpu::Specialization>& constants);
   void recordDensity(gpu::Commands& commands, const MediaVisibility& visibility,
                      const MediaLightSource& light, const glsl::MediaPush& push,
                      const gpu::Specialization& instanced, std::vector<gpu::Binding> bindings);
 
   const gpu::Device& device_;
+  gpu::ComputePrograms programs_;  // compiled at first use
   glm::uvec3 groupCount_;
   const DensityBuffers* density_ = nullptr;
   gpu::Buffer uniforms_;
   gpu::Image running_;
   gpu::Buffer lightDepth_, eyeDepth_;  // made at the first density
   gpu::Buffer inScattered_, surfaces_, radiance_;
-  std::vector<std::unique_ptr<Variant>> variants_;  // compiled at first use
 };
 
 }  // namespace gnomon
