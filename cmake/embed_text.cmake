@@ -1,5 +1,5 @@
 # Writes OUTPUT: each of FILES below ROOT as a string that HEADER declares, in NAMESPACE. "report/page.css" becomes
-# kReportPageCss. Raw string literals hold at most 65,536 characters, which no page here comes near.
+# kPageCss. Raw string literals hold at most 65,536 characters, which no page here comes near.
 set(text "// Made by cmake/embed_text.cmake.\n#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n\n")
 foreach(file IN LISTS FILES)
   file(READ ${ROOT}/${file} content)

@@ -1,9 +1,10 @@
 # gnomon_library(NAME LINKS ... SOURCES ...): one static library for the current folder.
 #
-# Headers are included as "<folder>/<file>.h". Each library publishes an include directory that holds
-# one link, named after its folder, to that folder, so an include of a layer that is not linked does
-# not resolve: the direction of the layers is enforced by the build. Installed, all of them stand below include/gnomon,
-# and gnomon_shadow is gnomon::shadow.
+# Headers are included as "<folder>/<file>.h", the folder as seen from the root or from src/ ("lab/core/setup.h"). Each
+# library publishes an include directory that holds links to that folder's headers and to nothing else: a folder below
+# with a CMakeLists.txt is a library of its own. So an include of a layer that is not linked does not resolve: the
+# direction of the layers is enforced by the build. Installed, all of them stand below include/gnomon, and gnomon_shadow
+# is gnomon::shadow.
 
 # -ffp-contract=off: the shared mathematics must give the same bits in C++ and in the shaders.
 add_library(gnomon_options INTERFACE)
@@ -26,12 +27,30 @@ function(gnomon_install name)
 endfunction()
 gnomon_install(gnomon_options)
 
+# gnomon_headers(DIR FOLDER): links to the headers of the current folder, and of those below that are no library of their
+# own, as DIR/FOLDER; and what to install.
+function(gnomon_headers dir folder)
+  file(REMOVE_RECURSE ${dir})
+  file(MAKE_DIRECTORY ${dir}/${folder})
+  file(GLOB entries CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*)
+  foreach(entry IN LISTS entries)
+    get_filename_component(name ${entry} NAME)
+    if(IS_DIRECTORY ${entry} AND NOT EXISTS ${entry}/CMakeLists.txt)
+      file(CREATE_LINK ${entry} ${dir}/${folder}/${name} SYMBOLIC)
+      install(DIRECTORY ${entry} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/${folder} FILES_MATCHING PATTERN "*.h")
+    elseif(name MATCHES "\\.h$")
+      file(CREATE_LINK ${entry} ${dir}/${folder}/${name} SYMBOLIC)
+      install(FILES ${entry} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/${folder})
+    endif()
+  endforeach()
+endfunction()
+
 function(gnomon_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
-  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  string(REGEX REPLACE "^src/" "" folder ${folder})
   set(include_dir ${CMAKE_BINARY_DIR}/include/${name})
-  file(MAKE_DIRECTORY ${include_dir})
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_dir}/${folder} SYMBOLIC)
+  gnomon_headers(${include_dir} ${folder})
   add_library(${name} STATIC ${arg_SOURCES})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${include_dir}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gnomon>)
@@ -44,6 +63,19 @@ function(gnomon_library name)
     target_precompile_headers(${name} REUSE_FROM gnomon_base)
   endif()
   gnomon_install(${name})
-  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/${folder}
-          FILES_MATCHING PATTERN "*.h")
+endfunction()
+
+# gnomon_embed_text(VARIABLE HEADER FILES...): files of the current folder as strings that HEADER declares (embed_text.cmake);
+# VARIABLE names the source to compile.
+function(gnomon_embed_text variable header)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${variable}.cpp)
+  set(paths ${ARGN})
+  list(TRANSFORM paths PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DROOT=${CMAKE_CURRENT_SOURCE_DIR} "-DFILES=${ARGN}"
+            -DHEADER=${header} -DNAMESPACE=gnomon -P ${CMAKE_SOURCE_DIR}/cmake/embed_text.cmake
+    DEPENDS ${paths} ${CMAKE_SOURCE_DIR}/cmake/embed_text.cmake
+    VERBATIM)
+  set(${variable} ${output} PARENT_SCOPE)
 endfunction()

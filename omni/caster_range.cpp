@@ -1,5 +1,7 @@
 #include "omni/caster_range.h"
 
+#include "planar/window.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,8 +35,7 @@ glm::dvec3 nearestToOrigin(const glm::dvec3& a, const glm::dvec3& b, const glm::
   const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + ac * (d2 / (d2 - d6));
   const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-    return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
   const double scale = 1.0 / (va + vb + vc);
   return a + ab * (vb * scale) + ac * (vc * scale);
 }
@@ -84,8 +85,7 @@ double distanceOf(const glm::dvec3& posL, Distance distance) {
 
 }  // namespace
 
-double nearestCaster(const Scene& scene, const glm::dvec3& lightW, Distance distance, double least,
-                     double farthest) {
+double nearestCaster(const Scene& scene, const glm::dvec3& lightW, Distance distance, double least, double farthest) {
   const double nearest = distance == Distance::Radial ? nearestRadial(scene, lightW, farthest)
                                                       : nearestAxial(scene, lightW, least, farthest);
   return std::max(nearest, least);
@@ -94,8 +94,7 @@ double nearestCaster(const Scene& scene, const glm::dvec3& lightW, Distance dist
 double farthestReceiver(const Scene& scene, const glm::dvec3& lightW, Distance distance,
                         std::span<const glm::dvec3> receiversW) {
   double farthest = 0.0;
-  for (const glm::dvec3& receiver : receiversW)
-    farthest = std::max(farthest, distanceOf(receiver - lightW, distance));
+  for (const glm::dvec3& receiver : receiversW) farthest = std::max(farthest, distanceOf(receiver - lightW, distance));
   if (!receiversW.empty()) return farthest;
   const Bounds bounds = computeBounds(scene);
   for (int i = 0; i < 8; ++i) {
@@ -109,8 +108,7 @@ double farthestReceiver(const Scene& scene, const glm::dvec3& lightW, Distance d
 DepthEnds fitDepthEnds(const Scene& scene, const glm::dvec3& lightW, Distance distance,
                        std::span<const glm::dvec3> receiversW) {
   const double scale = std::max(static_cast<double>(computeBounds(scene).diagonal()), 1e-6);
-  const double farthest =
-      std::max(farthestReceiver(scene, lightW, distance, receiversW), 2.0 * kLeastNear * scale);
+  const double farthest = std::max(farthestReceiver(scene, lightW, distance, receiversW), 2.0 * kLeastNear * scale);
   const double nearest = nearestCaster(scene, lightW, distance, kLeastNear * scale, farthest);
   return {.zNear = nearest * (1.0 - kEndSlack), .zFar = farthest * (1.0 + kEndSlack)};
 }

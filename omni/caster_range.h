@@ -3,7 +3,6 @@
 // everywhere.
 
 #include "scene/scene.h"
-#include "shadow/fit.h"
 
 #include <span>
 
@@ -19,8 +18,7 @@ enum class Distance {
 
 // Metres to the nearest point of any triangle, and not less than `least`; `farthest` where there is none
 // nearer.
-double nearestCaster(const Scene& scene, const glm::dvec3& lightW, Distance distance, double least,
-                     double farthest);
+double nearestCaster(const Scene& scene, const glm::dvec3& lightW, Distance distance, double least, double farthest);
 
 // Metres to the farthest of the points, or to the farthest corner of the scene where there are none.
 double farthestReceiver(const Scene& scene, const glm::dvec3& lightW, Distance distance,

@@ -15,7 +15,6 @@ namespace gnomon {
 const Parameterization& cubeParameterization();
 
 // A cube map with these ends of depth, metres.
-FittedMap makeCubeMap(const glm::dvec3& lightW, CubeDepth depth, double zNear, double zFar, int side,
-                      float sceneScale);
+FittedMap makeCubeMap(const glm::dvec3& lightW, CubeDepth depth, double zNear, double zFar, int side, float sceneScale);
 
 }  // namespace gnomon

@@ -1,6 +1,7 @@
 #include "omni/paraboloid_map.h"
 
 #include "omni/caster_range.h"
+#include "planar/window.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +29,7 @@ glm::dvec3 candidateAxis(size_t i) {
 double clearance(const glm::dvec3& axis, const std::vector<glm::dvec3>& directions) {
   std::vector<double> sines(directions.size());
   for (size_t i = 0; i < directions.size(); ++i) sines[i] = std::abs(glm::dot(axis, directions[i]));
-  const auto low =
-      sines.begin() + static_cast<std::ptrdiff_t>(kAxisPercentile * static_cast<double>(sines.size() - 1));
+  const auto low = sines.begin() + static_cast<std::ptrdiff_t>(kAxisPercentile * static_cast<double>(sines.size() - 1));
   std::nth_element(sines.begin(), low, sines.end());
   return *low;
 }
@@ -58,9 +58,7 @@ class ParaboloidParameterization final : public Parameterization {
   const char* sentence() const override { return "two hemispheres around a point light"; }
   int layerCount(const MapOptions&) const override { return 2; }
 
-  Takes takes(LightType type) const override {
-    return type == LightType::Directional ? Takes::No : Takes::Yes;
-  }
+  Takes takes(LightType type) const override { return type == LightType::Directional ? Takes::No : Takes::Yes; }
 
   LightModel lightModel(const Light& light, const glm::dvec3&) const override {
     return {.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};
@@ -83,8 +81,8 @@ const Parameterization& paraboloidParameterization() {
   return paraboloid;
 }
 
-FittedMap makeParaboloidMap(const glm::dvec3& lightW, const glm::dvec3& axisW, ParaboloidRaster raster,
-                            double zNear, double zFar, int side, float sceneScale) {
+FittedMap makeParaboloidMap(const glm::dvec3& lightW, const glm::dvec3& axisW, ParaboloidRaster raster, double zNear,
+                            double zFar, int side, float sceneScale) {
   const AxisFrame frame = axisFrame(lightW, axisW, true);
   FittedMap fitted;
   fitted.frame = {.originW = glm::vec3(lightW),

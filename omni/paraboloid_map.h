@@ -16,8 +16,8 @@ namespace gnomon {
 const Parameterization& paraboloidParameterization();
 
 // A paraboloid map with this axis (unit) and these ends of depth, metres.
-FittedMap makeParaboloidMap(const glm::dvec3& lightW, const glm::dvec3& axisW, ParaboloidRaster raster,
-                            double zNear, double zFar, int side, float sceneScale);
+FittedMap makeParaboloidMap(const glm::dvec3& lightW, const glm::dvec3& axisW, ParaboloidRaster raster, double zNear,
+                            double zFar, int side, float sceneScale);
 
 // The axis that turns the seam away from what is seen: of directions spread evenly over a hemisphere, the one
 // for which the receiver at the 5th percentile of the angle to the seam is farthest from it. (The nearest one

@@ -4,9 +4,9 @@
 //   01_point_light_cube [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
 #include "base/image.h"
+#include "judge/lit_scene.h"
 #include "omni/cube_map.h"
 #include "scene/generate.h"
-#include "shadow/lit_scene.h"
 
 #include <cstdio>
 #include <exception>

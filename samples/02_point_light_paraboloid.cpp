@@ -4,9 +4,9 @@
 //   02_point_light_paraboloid [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
 #include "base/image.h"
+#include "judge/lit_scene.h"
 #include "omni/paraboloid_map.h"
 #include "scene/generate.h"
-#include "shadow/lit_scene.h"
 
 #include <cstdio>
 #include <exception>

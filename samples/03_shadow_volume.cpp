@@ -4,8 +4,8 @@
 //   03_shadow_volume [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
 #include "base/image.h"
+#include "judge/lit_scene.h"
 #include "scene/generate.h"
-#include "shadow/lit_scene.h"
 #include "vsv/shadow_volume.h"
 #include "vsv/volume_renderer.h"
 #include "vsv/volume_visibility.h"

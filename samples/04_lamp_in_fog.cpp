@@ -30,8 +30,7 @@ void run(const char* sceneName, const char* path) {
   const MediaLightSource lamp = mediaLight(scene.lights.at(0));
   const LightModel light{.type = LightType::Point, .positionW = lamp.positionW};
   const glm::vec3 sigmaS(kOpticalDepth / computeBounds(scene).diagonal());  // 1/m
-  const glsl::Medium fog{
-      .sigmaS = sigmaS, .sigmaA = {}, .g = 0.3f, .reach = defaultReach(scene, camera.eyeW)};
+  const glsl::Medium fog{.sigmaS = sigmaS, .sigmaA = {}, .g = 0.3f, .reach = defaultReach(scene, camera.eyeW)};
 
   // The volume is fitted to where the view rays end, which takes a first look at the scene.
   const GBuffer gbuffer(*device, kSide, kSide);
@@ -41,9 +40,8 @@ void run(const char* sceneName, const char* path) {
   const Receivers receivers =
       computeReceivers(Tracer(scene), camera, light, downloadPrimitiveIds(*device, gbuffer, buffers));
   const std::vector<glm::dvec3> ends = mediaReceiversW(camera, receivers, fog.reach);
-  const FittedVolume fitted =
-      fitVolume({.scene = scene, .light = light, .receiversW = ends, .camera = camera}, VolumeSize{},
-                VolumeFit::Frustum);
+  const FittedVolume fitted = fitVolume({.scene = scene, .light = light, .receiversW = ends, .camera = camera},
+                                        VolumeSize{}, VolumeFit::Frustum);
   ShadowVolume volume(*device, fitted);
 
   const MapRenderer maps(*device);
@@ -61,8 +59,7 @@ void run(const char* sceneName, const char* path) {
   media.recordTable(commands, volume, lamp);
   lookUp.record(commands, buffers, gbuffer, volume, visibility, findBias("adaptive"), false);
   commands.barrier("visibility and the running integral are written -> surfaces and view rays read them");
-  media.recordSurfaces(commands, buffers, gbuffer, lamp, visibility.uniforms(), visibility.visibility(),
-                       false);
+  media.recordSurfaces(commands, buffers, gbuffer, lamp, visibility.uniforms(), visibility.visibility(), false);
   media.record(commands, buffers, gbuffer, volume, lamp, {.integrator = Integrator::Runs}, false);
   commands.barrier("surfaces and scattered light are written -> their sum reads them");
   media.recordSum(commands);

@@ -7,9 +7,10 @@
 //
 //   05_map_of_my_own [SCENE [TEXELS]]      SCENE: a glTF file or the name of a generated scene
 
-#include "lab/table.h"
+#include "lab/compare/table.h"
 #include "omni/caster_range.h"
 #include "omni/cube_map.h"
+#include "planar/window.h"
 
 #include <cmath>
 #include <cstdio>
@@ -42,22 +43,17 @@ class Tetrahedron final : public Parameterization {
   const char* name() const override { return "tetrahedron"; }
   const char* sentence() const override { return "four layers around a point light"; }
   int layerCount(const MapOptions&) const override { return 4; }
-  Takes takes(LightType type) const override {
-    return type == LightType::Directional ? Takes::No : Takes::Yes;
-  }
+  Takes takes(LightType type) const override { return type == LightType::Directional ? Takes::No : Takes::Yes; }
   LightModel lightModel(const Light& light, const glm::dvec3&) const override {
     return {.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};
   }
 
   FittedMap fit(const FitInput& input) const override {
     DepthEnds ends = fitDepthEnds(input.scene, input.light.positionW, Distance::Radial, input.receiversW);
-    ends.zNear *=
-        0.99 / 3.0;  // a corner is three times as far from the light as the plane: 1 / cos(70.5 degrees)
+    ends.zNear *= 0.99 / 3.0;  // a corner is three times as far from the light as the plane: 1 / cos(70.5 degrees)
     FittedMap fitted;
-    fitted.frame = {.originW = glm::vec3(input.light.positionW),
-                    .rightW = {1, 0, 0},
-                    .upW = {0, 1, 0},
-                    .backW = {0, 0, 1}};
+    fitted.frame = {
+        .originW = glm::vec3(input.light.positionW), .rightW = {1, 0, 0}, .upW = {0, 1, 0}, .backW = {0, 0, 1}};
     fitted.zNear = static_cast<float>(ends.zNear);
     fitted.zFar = static_cast<float>(ends.zFar);
     fitted.map = {.kind = glsl::kMapPlanar,

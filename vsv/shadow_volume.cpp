@@ -20,8 +20,7 @@ VolumeSize sizeThatFits(glsl::EpipolarGrid grid, uint64_t most) {
     int* const longest = std::max({&grid.alphaCount, &grid.thetaCount, &grid.phiCount},
                                   [](const int* a, const int* b) { return *a < *b; });
     *longest /= 2;
-    if (longest == &grid.phiCount)
-      grid.phiCount = std::max(grid.phiCount / glsl::kPhiBits, 1) * glsl::kPhiBits;
+    if (longest == &grid.phiCount) grid.phiCount = std::max(grid.phiCount / glsl::kPhiBits, 1) * glsl::kPhiBits;
   }
   return {.alpha = grid.alphaCount, .theta = grid.thetaCount, .phi = grid.phiCount};
 }
@@ -30,10 +29,10 @@ const FittedVolume& checkedFor(const gpu::Device& device, const FittedVolume& fi
   const glsl::EpipolarGrid& grid = fitted.grid;
   const uint64_t most = std::min(device.info().maxStorageBufferBytes, device.info().maxAllocationBytes);
   if (bytesOf(grid) > most)
-    throw WorldError(fmt::format(
-        "--vsv-size {}: {} MiB of voxels are more than the device's largest buffer, {} MiB; {} would fit",
-        volumeSizeName({.alpha = grid.alphaCount, .theta = grid.thetaCount, .phi = grid.phiCount}),
-        bytesOf(grid) >> 20, most >> 20, volumeSizeName(sizeThatFits(grid, most))));
+    throw WorldError(
+        fmt::format("--vsv-size {}: {} MiB of voxels are more than the device's largest buffer, {} MiB; {} would fit",
+                    volumeSizeName({.alpha = grid.alphaCount, .theta = grid.thetaCount, .phi = grid.phiCount}),
+                    bytesOf(grid) >> 20, most >> 20, volumeSizeName(sizeThatFits(grid, most))));
   return fitted;
 }
 
@@ -41,19 +40,17 @@ const FittedVolume& checkedFor(const gpu::Device& device, const FittedVolume& fi
 
 uint64_t volumeTexelCount(const glsl::EpipolarGrid& grid) {
   const uint64_t thetas =
-      static_cast<uint64_t>((grid.thetaCount + glsl::kThetaBlock - 1) / glsl::kThetaBlock) *
-      glsl::kThetaBlock;
-  return thetas * static_cast<uint64_t>(grid.alphaCount) *
-         static_cast<uint64_t>(grid.phiCount / glsl::kPhiBits);
+      static_cast<uint64_t>((grid.thetaCount + glsl::kThetaBlock - 1) / glsl::kThetaBlock) * glsl::kThetaBlock;
+  return thetas * static_cast<uint64_t>(grid.alphaCount) * static_cast<uint64_t>(grid.phiCount / glsl::kPhiBits);
 }
 
 ShadowVolume::ShadowVolume(const gpu::Device& device, const FittedVolume& fitted,
                            const std::shared_ptr<const FittedMap>& source)
     : fitted_(checkedFor(device, fitted)),
-      uniforms_(gpu::createBufferWith(device, "volume uniforms",
-                                      std::vector<glsl::MapUniforms>{{.lightFrame = fitted.columns.frame,
-                                                                      .shadowMap = fitted.columns.map}},
-                                      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)),
+      uniforms_(gpu::createBufferWith(
+          device, "volume uniforms",
+          std::vector<glsl::MapUniforms>{{.lightFrame = fitted.columns.frame, .shadowMap = fitted.columns.map}},
+          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)),
       bits_(device, {.name = "volume bits", .size = bytesOf(fitted.grid)}),
       occluders_(device, {.name = "volume occluders",
                           .size = static_cast<VkDeviceSize>(fitted.grid.thetaCount) *

@@ -33,11 +33,9 @@ class ShadowVolume {
   const gpu::Buffer& bits() const { return bits_; }  // 128 phi bits a uvec4; epipolarTexelIndex says where
   const gpu::Buffer& occluders() const {
     return occluders_;
-  }  // float alpha a column, theta fastest; infinity where none
+  }                                                          // float alpha a column, theta fastest; infinity where none
   const gpu::Buffer& uniforms() const { return uniforms_; }  // glsl::MapUniforms of the columns
-  const MapImage& source() const {
-    return source_;
-  }  // the columns' own map, or the one they are looked up in
+  const MapImage& source() const { return source_; }         // the columns' own map, or the one they are looked up in
   MapImage& source() { return source_; }
 
  private:

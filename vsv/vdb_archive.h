@@ -36,8 +36,7 @@ class CheckedArchive : public openvdb::io::Archive {
 inline void writeGrids(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
                        const openvdb::MetaMap& meta) {
   try {
-    writeAtomically(
-        path, [&](const std::filesystem::path& aside) { CheckedArchive().writeTo(aside, grids, meta); });
+    writeAtomically(path, [&](const std::filesystem::path& aside) { CheckedArchive().writeTo(aside, grids, meta); });
   } catch (const openvdb::Exception& error) {
     throw fileError(path.string(), "cannot be written", openVdbMessage(error));
   }

@@ -58,8 +58,8 @@ Picture pictureOf(const glsl::CameraView& camera, const glm::dmat3& worldFromLig
   Picture picture;
   for (size_t i = 0; i < 4; ++i) {
     const double sx = i == 1 || i == 2 ? 1.0 : -1.0, sy = i >= 2 ? 1.0 : -1.0;
-    picture.corners[i] = glm::normalize(
-        (forward + right * (sx * camera.tanHalfX) + up * (sy * camera.tanHalfY)) * worldFromLight);
+    picture.corners[i] =
+        glm::normalize((forward + right * (sx * camera.tanHalfX) + up * (sy * camera.tanHalfY)) * worldFromLight);
   }
   const auto sees = [&](const glm::dvec3& dirW) {
     const double ahead = glm::dot(dirW, forward) * (1.0 + kPictureSlack);
@@ -131,10 +131,8 @@ void setSteps(const Range& range, int count, double below, double above, float& 
 }
 
 glsl::EpipolarGrid fullGrid(const VolumeSize& size) {
-  glsl::EpipolarGrid grid{.thetaLower = -static_cast<float>(kPi),
-                          .alphaCount = size.alpha,
-                          .thetaCount = size.theta,
-                          .phiCount = size.phi};
+  glsl::EpipolarGrid grid{
+      .thetaLower = -static_cast<float>(kPi), .alphaCount = size.alpha, .thetaCount = size.theta, .phiCount = size.phi};
   grid.alphaStep = static_cast<float>(kPi / size.alpha);
   grid.thetaStep = static_cast<float>(2.0 * kPi / size.theta);
   grid.phiStep = static_cast<float>(kPi / size.phi);
@@ -149,8 +147,7 @@ void fitToPicture(const FitInput& input, const glm::dmat3& worldFromLight, glsl:
     setSteps(alpha, grid.alphaCount, kAlphaSlackVoxels, 1.0, grid.alphaLower, grid.alphaStep);
     if (grid.alphaLower < 0.0f) {  // nothing lies before the light
       grid.alphaLower = 0.0f;
-      grid.alphaStep =
-          static_cast<float>(std::min(alpha.upper * (1.0 + 1.0 / grid.alphaCount), kPi) / grid.alphaCount);
+      grid.alphaStep = static_cast<float>(std::min(alpha.upper * (1.0 + 1.0 / grid.alphaCount), kPi) / grid.alphaCount);
     }
   }
   // Half a column outside on each side, which a column's centre never needs.
@@ -192,8 +189,7 @@ FittedVolume fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit 
                  .rows = size.phi,
                  .sceneScale = sceneScale,
                  .epipolar = volume.grid};
-  columns.zFar =
-      static_cast<float>(farthestReceiver(input.scene, lightW, Distance::Radial, input.receiversW));
+  columns.zFar = static_cast<float>(farthestReceiver(input.scene, lightW, Distance::Radial, input.receiversW));
   constexpr const char* kFragment = "shadow/draw_bounded_triangle.frag.glsl";
   LayerShaders& shaders = columns.shaders;
   shaders.projective = false;

@@ -13,9 +13,7 @@ class VolumeParameterization final : public Parameterization {
   const char* sentence() const override { return "a voxelized shadow volume in epipolar coordinates"; }
   int layerCount(const MapOptions&) const override { return 1; }
 
-  Takes takes(LightType type) const override {
-    return type == LightType::Directional ? Takes::No : Takes::Yes;
-  }
+  Takes takes(LightType type) const override { return type == LightType::Directional ? Takes::No : Takes::Yes; }
 
   LightModel lightModel(const Light& light, const glm::dvec3&) const override {
     return {.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};

@@ -24,13 +24,13 @@ void VolumeRenderer::record(gpu::Commands& commands, const MapRenderer& maps, co
 
   const glsl::EpipolarGrid& grid = volume.fitted().grid;
   commands.beginStage("volume occluders");
-  commands.dispatch(
-      programs_.get(kFindOccluders, {{.id = 0, .value = volume.source().kind()}}),
-      {groups(grid.thetaCount, glsl::kColumnGroupSide), groups(grid.phiCount, glsl::kColumnGroupSide), 1}, {},
-      {{glsl::kBindMap, volume.uniforms()},
-       {glsl::kBindSourceMap, volume.source().uniforms()},
-       {glsl::kBindMapDepth, volume.source().depth()},
-       {glsl::kBindOccluders, volume.occluders()}});
+  commands.dispatch(programs_.get(kFindOccluders, {{.id = 0, .value = volume.source().kind()}}),
+                    {groups(grid.thetaCount, glsl::kColumnGroupSide), groups(grid.phiCount, glsl::kColumnGroupSide), 1},
+                    {},
+                    {{glsl::kBindMap, volume.uniforms()},
+                     {glsl::kBindSourceMap, volume.source().uniforms()},
+                     {glsl::kBindMapDepth, volume.source().depth()},
+                     {glsl::kBindOccluders, volume.occluders()}});
   commands.endStage();
   commands.barrier("occluders are written -> bits are set behind them");
 
@@ -48,8 +48,7 @@ void VolumeRenderer::recordBits(gpu::Commands& commands, const ShadowVolume& vol
                                               {glsl::kBindOccluders, volume.occluders()},
                                               {glsl::kBindBits, volume.bits()}};
   if (how == Voxelization::Fused) {
-    commands.dispatch(programs_.get(kVoxelize, {{.id = 0, .value = glsl::kVoxelizeFused}}), size, {},
-                      bindings);
+    commands.dispatch(programs_.get(kVoxelize, {{.id = 0, .value = glsl::kVoxelizeFused}}), size, {}, bindings);
     return;
   }
   commands.fill(volume.bits(), 0);

@@ -20,8 +20,8 @@ class VolumeRenderer {
   explicit VolumeRenderer(const gpu::Device& device) : programs_(device) {}
 
   // Everything; stages "volume source", "volume occluders", "volume bits". `light` and `cull` as for a map.
-  void record(gpu::Commands& commands, const MapRenderer& maps, const SceneBuffers& scene,
-              ShadowVolume& volume, const LightModel& light, CullMode cull) const;
+  void record(gpu::Commands& commands, const MapRenderer& maps, const SceneBuffers& scene, ShadowVolume& volume,
+              const LightModel& light, CullMode cull) const;
 
   // The bits alone, from what `volume.occluders()` holds.
   void recordBits(gpu::Commands& commands, const ShadowVolume& volume, Voxelization how) const;

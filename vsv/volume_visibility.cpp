@@ -11,8 +11,8 @@ bool volumeAnswers(const BiasMethod& method) {
 }
 
 void VolumeVisibility::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                              const ShadowVolume& volume, const VisibilityPass& pass,
-                              const BiasMethod& method, bool diagnose) {
+                              const ShadowVolume& volume, const VisibilityPass& pass, const BiasMethod& method,
+                              bool diagnose) {
   GNOMON_CHECK(volumeAnswers(method));
   const gpu::ComputeProgram& program =
       programs_.get("vsv/shade_volume_visibility.comp.glsl", {{.id = 0, .value = method.id},

@@ -15,9 +15,8 @@ class VolumeVisibility {
   explicit VolumeVisibility(const gpu::Device& device) : programs_(device) {}
 
   // `pass` holds the frame's uniforms and takes the result.
-  void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-              const ShadowVolume& volume, const VisibilityPass& pass, const BiasMethod& method,
-              bool diagnose);
+  void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const ShadowVolume& volume,
+              const VisibilityPass& pass, const BiasMethod& method, bool diagnose);
 
  private:
   gpu::ComputePrograms programs_;  // compiled at first use

@@ -18,7 +18,6 @@ struct UsageError : std::runtime_error {
 };
 
 // "path: what is wrong; remedy", the form every message about a file has.
-[[nodiscard]] WorldError fileError(const std::string& path, const std::string& what,
-                                   const std::string& remedy);
+[[nodiscard]] WorldError fileError(const std::string& path, const std::string& what, const std::string& remedy);
 
 }  // namespace gnomon

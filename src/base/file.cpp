@@ -20,8 +20,7 @@ namespace {
 
 // Beside the target, so that the rename stays within one file system; the process id keeps two runs apart.
 fs::path asidePath(const fs::path& path) {
-  return path.parent_path() /
-         fmt::format(".{}.{}{}", path.stem().string(), ::getpid(), path.extension().string());
+  return path.parent_path() / fmt::format(".{}.{}{}", path.stem().string(), ::getpid(), path.extension().string());
 }
 
 }  // namespace
@@ -48,8 +47,7 @@ void writeTextFile(const fs::path& path, std::string_view text) {
     std::ofstream out(aside, std::ios::binary);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.close();
-    if (!out)
-      throw fileError(path.string(), "cannot be written", "check that the folder exists and has room");
+    if (!out) throw fileError(path.string(), "cannot be written", "check that the folder exists and has room");
   });
 }
 

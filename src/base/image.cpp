@@ -13,8 +13,7 @@ void writePng(const std::filesystem::path& path, const Image8& image) {
   imageCodec().writePng(path, image);
 }
 
-void writeExr(const std::filesystem::path& path, const ImageF& image,
-              const std::vector<std::string>& channelNames) {
+void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames) {
   imageCodec().writeExr(path, image, channelNames);
 }
 

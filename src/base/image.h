@@ -34,8 +34,7 @@ using ImageF = Image<float>;
 void writePng(const std::filesystem::path& path, const Image8& image);
 
 // Any number of channels, 32-bit float, names such as {"Y"} or {"R","G","B"}. Throws WorldError.
-void writeExr(const std::filesystem::path& path, const ImageF& image,
-              const std::vector<std::string>& channelNames);
+void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames);
 
 // Any file OpenImageIO reads, as float (8-bit files give [0,1], not linearized). Throws WorldError.
 ImageF readImage(const std::filesystem::path& path);

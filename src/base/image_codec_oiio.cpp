@@ -69,8 +69,7 @@ Image8 decodeImageBytes(const uint8_t* bytes, size_t size, const std::string& wh
   if (!in) throw fileError(what, "cannot be decoded as PNG or JPEG", OIIO::geterror());
   const OIIO::ImageSpec spec = in->spec();
   if (spec.width <= 0 || spec.height <= 0 || spec.width > 16384 || spec.height > 16384)
-    throw fileError(what, fmt::format("has {} x {} pixels", spec.width, spec.height),
-                    "at most 16384 x 16384 are read");
+    throw fileError(what, fmt::format("has {} x {} pixels", spec.width, spec.height), "at most 16384 x 16384 are read");
   std::vector<uint8_t> raw(static_cast<size_t>(spec.width) * spec.height * spec.nchannels);
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data()))
     throw fileError(what, "cannot be decoded", in->geterror());
@@ -91,8 +90,7 @@ std::string encodeJpegBytes(const Image8& image, int quality) {
   auto out = OIIO::ImageOutput::create("memory.jpg");
   GNOMON_CHECK(out && out->supports("ioproxy"));
   out->set_ioproxy(&memory);
-  if (!out->open("memory.jpg", spec) || !out->write_image(OIIO::TypeDesc::UINT8, image.values.data()) ||
-      !out->close())
+  if (!out->open("memory.jpg", spec) || !out->write_image(OIIO::TypeDesc::UINT8, image.values.data()) || !out->close())
     throw fileError("a JPEG picture", "cannot be encoded", out->geterror());
   return {memory.buffer().begin(), memory.buffer().end()};
 }

@@ -1,7 +1,7 @@
 #include "base/file.h"
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
-#include "lab/bench.h"
+#include "lab/bench/bench.h"
 
 #include <cstdio>
 #include <memory>
@@ -60,13 +60,11 @@ Run addBenchVerb(CLI::App& app) {
   verb->add_option("--vsv-size", flags->method.vsvSize,
                    "voxels of a shadow volume, ALPHAxTHETAxPHI; PHI a multiple of 128")
       ->capture_default_str();
-  verb->add_option("--vsv-fit", flags->method.vsvFit, "what a volume covers: frustum or full")
-      ->capture_default_str();
+  verb->add_option("--vsv-fit", flags->method.vsvFit, "what a volume covers: frustum or full")->capture_default_str();
   verb->add_option("--repeats", flags->repeats, "rounds; medians are told")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  verb->add_flag("--no-growth", flags->noGrowth,
-                 "leave out how costs grow with triangles, map, picture and volume");
+  verb->add_flag("--no-growth", flags->noGrowth, "leave out how costs grow with triangles, map, picture and volume");
   verb->add_flag("--no-start", flags->noStart, "leave out the time from typing gnomon render to the picture");
   verb->add_option("--most-triangles", flags->mostTriangles, "where the growth with triangles ends")
       ->check(CLI::Range(10'000L, 19'000'000L))

@@ -1,7 +1,7 @@
 #pragma once
 // Flags that several verbs share. Knob flags derive from the list of biases (shadow/bias.h).
 
-#include "lab/compare.h"
+#include "lab/compare/compare.h"
 
 #include <map>
 #include <optional>

@@ -3,10 +3,10 @@
 #include "base/image.h"
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
-#include "lab/report.h"
-#include "lab/results.h"
-#include "lab/table.h"
-#include "lab/threshold.h"
+#include "lab/compare/results.h"
+#include "lab/compare/table.h"
+#include "lab/compare/threshold.h"
+#include "lab/page/report.h"
 
 #include <cstdio>
 #include <memory>
@@ -49,8 +49,7 @@ int runCompare(const CompareFlags& flags) {
   std::fputs(comparisonTable(comparison).c_str(), stdout);
   std::fputs(tuningTable(comparison).c_str(), stdout);
   if (!flags.out.empty())
-    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(),
-                flags.out.c_str());
+    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
   for (const Threshold& threshold : thresholds) {
     if (const std::optional<std::string> line = crossed(threshold, comparison.rows)) {
       std::fprintf(stderr, "gnomon: %s\n", line->c_str());
@@ -64,20 +63,17 @@ int runCompare(const CompareFlags& flags) {
 
 Run addCompareVerb(CLI::App& app) {
   auto flags = std::make_shared<CompareFlags>();
-  CLI::App* verb = app.add_subcommand(
-      "compare", "every chosen map x bias against the exact shadow: table, pictures, results.json");
+  CLI::App* verb =
+      app.add_subcommand("compare", "every chosen map x bias against the exact shadow: table, pictures, results.json");
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "all");
-  verb->add_option("-o,--out", flags->out,
-                   "folder for report.html, pictures and results.json; none: the table only");
+  verb->add_option("-o,--out", flags->out, "folder for report.html, pictures and results.json; none: the table only");
   verb->add_option("--json", flags->json, "write results.json here");
-  verb->add_option(
-      "--fail-if", flags->failIf,
-      "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; may be repeated");
-  verb->add_flag(
-      "--tune", flags->tune,
-      "each bias with a knob also at the value with the least acne + leak here, and how good that value is "
-      "from another camera and on a map of half the size");
+  verb->add_option("--fail-if", flags->failIf,
+                   "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; may be repeated");
+  verb->add_flag("--tune", flags->tune,
+                 "each bias with a knob also at the value with the least acne + leak here, and how good that value is "
+                 "from another camera and on a map of half the size");
   verb->add_option("--repeats", flags->repeats, "of every timed stage; medians are told")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -2,12 +2,12 @@
 #include "base/file.h"
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
-#include "lab/fog.h"
-#include "lab/fog_motion.h"
-#include "lab/fog_pictures.h"
-#include "lab/fog_report.h"
-#include "lab/maps.h"
-#include "lab/report.h"
+#include "lab/core/maps.h"
+#include "lab/fog/fog.h"
+#include "lab/fog/fog_motion.h"
+#include "lab/fog/fog_pictures.h"
+#include "lab/fog/fog_report.h"
+#include "lab/page/report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,8 +124,7 @@ std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags) {
 FogMedium fogMedium(const FogFlags& flags) {
   FogMedium medium{.sigmaA = parseSpectrum("--sigma-a", flags.sigmaA), .reach = flags.reach};
   if (!flags.sigmaS.empty()) medium.sigmaS = parseSpectrum("--sigma-s", flags.sigmaS);
-  if (!(std::abs(flags.g) < 1.0))
-    throw UsageError(fmt::format("--g {}: a mean cosine lies between -1 and 1", flags.g));
+  if (!(std::abs(flags.g) < 1.0)) throw UsageError(fmt::format("--g {}: a mean cosine lies between -1 and 1", flags.g));
   medium.g = static_cast<float>(flags.g);
   if (flags.reach && !(*flags.reach > 0.0 && *flags.reach < 1e9))
     throw UsageError(fmt::format("--reach {}: metres, more than 0 and less than 1e9", *flags.reach));
@@ -157,8 +156,7 @@ FogOptions fogOptions(const FogFlags& flags) {
   options.map.volumeFit = parseVolumeFit(flags.method.vsvFit);
   options.reference.bound = flags.bound.value_or(flags.density.empty() ? kBound : kDensityBound);
   if (!(options.reference.bound >= 1e-6 && options.reference.bound <= 1.0))
-    throw UsageError(
-        fmt::format("--bound {}: a share of the picture's mean, 1e-6..1", options.reference.bound));
+    throw UsageError(fmt::format("--bound {}: a share of the picture's mean, 1e-6..1", options.reference.bound));
   if (flags.move.empty() != (flags.frames == 0)) throw UsageError("--frames and --move need each other");
   if (!flags.move.empty()) options.motion = parseMotion(flags.move, flags.frames);
   if (options.motion && !folder && !flags.truth)
@@ -187,8 +185,7 @@ int runFogVerb(const FogFlags& flags) {
   if (!flags.json.empty()) writeTextFile(flags.json, json);
   std::fputs(fogTable(session, options, result).c_str(), stdout);
   if (!options.outDir.empty()) {
-    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(),
-                flags.out.c_str());
+    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
   } else if (!flags.out.empty()) {
     const std::filesystem::path path = flags.out;
     writePicture(path, result, result.inScattered.front());
@@ -202,23 +199,18 @@ int runFogVerb(const FogFlags& flags) {
 }
 
 void addMediumFlags(CLI::App& verb, FogFlags& flags) {
-  verb.add_option(
-      "--sigma-s", flags.sigmaS,
-      "scattering per metre, one number or r,g,b; default: grey, so that the scene's diagonal is half an "
-      "optical depth");
-  verb.add_option("--sigma-a", flags.sigmaA, "absorption per metre, one number or r,g,b")
+  verb.add_option("--sigma-s", flags.sigmaS,
+                  "scattering per metre, one number or r,g,b; default: grey, so that the scene's diagonal is half an "
+                  "optical depth");
+  verb.add_option("--sigma-a", flags.sigmaA, "absorption per metre, one number or r,g,b")->capture_default_str();
+  verb.add_option("--g", flags.g, "mean cosine of the phase function (Henyey and Greenstein), between -1 and 1")
       ->capture_default_str();
-  verb.add_option("--g", flags.g,
-                  "mean cosine of the phase function (Henyey and Greenstein), between -1 and 1")
-      ->capture_default_str();
-  verb.add_option(
-      "--reach", flags.reach,
-      "metres from the eye at which view rays end that meet no surface before; default: the farthest "
-      "corner of the scene's bounds");
-  verb.add_option(
-      "--density", flags.density,
-      "FILE.vdb[:grid], a float grid: what sigma_s and sigma_a are multiplied by (`gnomon scene --density` "
-      "makes some); default: none, a homogeneous medium");
+  verb.add_option("--reach", flags.reach,
+                  "metres from the eye at which view rays end that meet no surface before; default: the farthest "
+                  "corner of the scene's bounds");
+  verb.add_option("--density", flags.density,
+                  "FILE.vdb[:grid], a float grid: what sigma_s and sigma_a are multiplied by (`gnomon scene --density` "
+                  "makes some); default: none, a homogeneous medium");
   verb.add_option("--density-at", flags.densityAt,
                   "x,y,z: where the density's centre goes, metres; default: where the file has it");
   verb.add_option("--density-scale", flags.densityScale, "factor of the density's size; default: 1");
@@ -233,10 +225,9 @@ Run addFogVerb(CLI::App& app) {
   CLI::App* verb = app.add_subcommand(
       "fog", "light shafts in a medium: pictures, and each way to integrate them against a traced reference");
   addSceneFlags(*verb, flags->scene);
-  verb->add_option(
-      "-o,--out", flags->out,
-      "a picture, .exr (cd/m^2) or .png (exposed), of the first of --integrators; or a folder for "
-      "report.html, results.json and all pictures");
+  verb->add_option("-o,--out", flags->out,
+                   "a picture, .exr (cd/m^2) or .png (exposed), of the first of --integrators; or a folder for "
+                   "report.html, results.json and all pictures");
   verb->add_option("--json", flags->json, "write results.json here");
   verb->add_flag("--truth", flags->truth, "trace the reference, and score each way to integrate against it");
   verb->add_option("--bound", flags->bound,
@@ -244,12 +235,10 @@ Run addFogVerb(CLI::App& app) {
                                "picture's mean; default: {:g}, in a density {:g}",
                                kBound, kDensityBound));
   verb->add_flag("--no-cache", flags->noCache, "neither read nor keep a reference of an earlier run");
-  verb->add_option(
-      "--integrators", flags->integrators,
-      "of runs, bits, popcount (of a shadow volume) and march (through a map); default: all, and runs "
-      "alone where only a picture is asked for");
-  verb->add_option("--steps", flags->steps,
-                   "samples a view ray of a march; in a density, of every way to integrate")
+  verb->add_option("--integrators", flags->integrators,
+                   "of runs, bits, popcount (of a shadow volume) and march (through a map); default: all, and runs "
+                   "alone where only a picture is asked for");
+  verb->add_option("--steps", flags->steps, "samples a view ray of a march; in a density, of every way to integrate")
       ->capture_default_str();
   verb->add_option("--march-map", flags->marchMap, "what a march looks shadows up in: cube or paraboloid")
       ->capture_default_str();

@@ -2,7 +2,7 @@
 #include "cli/verbs.h"
 #include "gpu/device.h"
 #include "gpu/shader_compiler.h"
-#include "lab/results.h"
+#include "lab/compare/results.h"
 #include "scene/generate.h"
 
 #include <cstdio>
@@ -18,11 +18,10 @@ namespace {
 void printDevices() {
   const std::vector<gpu::DeviceInfo> devices = gpu::listDevices();
   fmt::print("gnomon {}\n", gnomonVersion());
-  if (devices.empty())
-    fmt::print("no Vulkan device; install one with: apt-get install mesa-vulkan-drivers\n");
+  if (devices.empty()) fmt::print("no Vulkan device; install one with: apt-get install mesa-vulkan-drivers\n");
   for (const gpu::DeviceInfo& device : devices) {
-    fmt::print("device {}\n  {}, Vulkan {}, {}\n", device.name, device.isCpu ? "CPU" : "GPU",
-               device.apiVersion, device.driver);
+    fmt::print("device {}\n  {}, Vulkan {}, {}\n", device.name, device.isCpu ? "CPU" : "GPU", device.apiVersion,
+               device.driver);
     fmt::print("  images to {} texels a side, storage buffers to {} MiB, ordered attachment access: {}\n",
                device.maxImageDimension2D, device.maxStorageBufferBytes >> 20,
                device.orderedAttachmentAccess ? "yes" : "no");
@@ -32,8 +31,7 @@ void printDevices() {
 
 const char* castsAs(const Scene& scene, const Mesh& mesh) {
   if (isSolid(scene, mesh)) return "solid";
-  if (scene.materials[mesh.material].doubleSided)
-    return mesh.closed ? "sheet (closed, but doubleSided)" : "sheet";
+  if (scene.materials[mesh.material].doubleSided) return mesh.closed ? "sheet (closed, but doubleSided)" : "sheet";
   return "open (one-sided, but not closed: never culled)";
 }
 
@@ -54,12 +52,10 @@ std::string lightText(const Light& light) {
 void printScene(const std::string& name) {
   const Scene scene = openScene(name);
   const Bounds bounds = computeBounds(scene);
-  fmt::print("{}: {} triangles, {} meshes, {} instances, {} materials, {} textures\n", scene.name,
-             triangleCount(scene), scene.meshes.size(), scene.instances.size(), scene.materials.size(),
-             scene.textures.size());
+  fmt::print("{}: {} triangles, {} meshes, {} instances, {} materials, {} textures\n", scene.name, triangleCount(scene),
+             scene.meshes.size(), scene.instances.size(), scene.materials.size(), scene.textures.size());
   fmt::print("bounds {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g} m, diagonal {:.4g} m\n", bounds.lower.x,
-             bounds.lower.y, bounds.lower.z, bounds.upper.x, bounds.upper.y, bounds.upper.z,
-             bounds.diagonal());
+             bounds.lower.y, bounds.lower.z, bounds.upper.x, bounds.upper.y, bounds.upper.z, bounds.diagonal());
   for (const Mesh& mesh : scene.meshes) {
     const Material& material = scene.materials[mesh.material];
     fmt::print("mesh '{}': {} triangles, {}{}\n", mesh.name, mesh.indices.size() / 3, castsAs(scene, mesh),

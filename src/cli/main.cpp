@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "cli/verbs.h"
-#include "lab/results.h"
+#include "lab/compare/results.h"
 
 #include <cstdio>
 #include <exception>

@@ -2,9 +2,10 @@
 #include "base/image.h"
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
-#include "lab/pictures.h"
-#include "shadow/filtered_truth.h"
-#include "shadow/texel_density.h"
+#include "judge/filtered_truth.h"
+#include "judge/texel_density.h"
+#include "lab/core/depth_images.h"
+#include "lab/picture/pictures.h"
 
 #include <array>
 #include <cstdio>
@@ -58,10 +59,9 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
     const std::vector<float> densities = texelDensities(fitted, exact.receivers);
     const MapOptions& how = options.mapOptions;
     const std::string title =
-        fmt::format("{}, {} x {} x {} texels, fit {}, warp {}", parameterization.name(),
-                    fitted.map.layerCount, side, side, windowFitName(how.fit), warpName(how.warp));
-    return {
-        densityPicture(exact.receivers, densities, title), oneChannel(session, densities), {"texels_per_m2"}};
+        fmt::format("{}, {} x {} x {} texels, fit {}, warp {}", parameterization.name(), fitted.map.layerCount, side,
+                    side, windowFitName(how.fit), warpName(how.warp));
+    return {densityPicture(exact.receivers, densities, title), oneChannel(session, densities), {"texels_per_m2"}};
   }
   const bool layers = show == "second-depth" || show == "layer-gap";
   const DrawnMap map = drawMap(session, passes.renderers, fitted, exact,
@@ -73,14 +73,11 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
                                           fitted.map.side, fitted.map.rows);
     std::vector<float> numbers;
     for (const Label label : judged.labels.labels) numbers.push_back(static_cast<float>(label));
-    return {labelPicture(exact.receivers, exact.truth, judged.labels, title),
-            oneChannel(session, numbers),
-            {"label"}};
+    return {labelPicture(exact.receivers, exact.truth, judged.labels, title), oneChannel(session, numbers), {"label"}};
   }
   std::vector<float> truth;
   if (show == "truth" || show == "difference")
-    truth =
-        computeFilteredTruth(session.tracer(), exact.light, exact.receivers, exact.truth, fitted, filter.id);
+    truth = computeFilteredTruth(session.tracer(), exact.light, exact.receivers, exact.truth, fitted, filter.id);
   if (show == "truth") return {visibilityPicture(exact.receivers, truth), oneChannel(session, truth), {"Y"}};
   const std::vector<float> visibility = filteredVisibility(session, passes, map, exact, method, filter.id);
   if (show == "difference") {
@@ -121,8 +118,7 @@ Run addRenderVerb(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("render", "one picture of one configuration, PNG or EXR");
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "adaptive");
-  verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")
-      ->required();
+  verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")->required();
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
                    "layer-gap or density (texels per square metre)")

@@ -1,6 +1,6 @@
 #include "base/file.h"
 #include "cli/verbs.h"
-#include "lab/report.h"
+#include "lab/page/report.h"
 
 #include <cstdio>
 #include <memory>
@@ -27,8 +27,7 @@ int runReport(const ReportFlags& flags) {
 
 Run addReportVerb(CLI::App& app) {
   auto flags = std::make_shared<ReportFlags>();
-  CLI::App* verb =
-      app.add_subcommand("report", "one self-contained HTML page of what compare wrote into a folder");
+  CLI::App* verb = app.add_subcommand("report", "one self-contained HTML page of what compare wrote into a folder");
   verb->add_option("DIR", flags->folder, "a folder that gnomon compare -o wrote")->required();
   verb->add_option("-o,--out", flags->out, "the page: FILE.html")->required();
   return [flags] { return runReport(*flags); };

@@ -3,7 +3,7 @@
 #include "base/progress.h"
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
-#include "lab/reproduce.h"
+#include "lab/paper/reproduce.h"
 
 #include <cstdio>
 #include <memory>
@@ -30,8 +30,7 @@ int runReproduce(const ReproduceFlags& flags) {
   }
   std::fputs(reproductionText(reproduction).c_str(), stdout);
   if (!flags.out.empty())
-    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(),
-                flags.out.c_str());
+    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
   return 0;
 }
 
@@ -39,8 +38,8 @@ int runReproduce(const ReproduceFlags& flags) {
 
 Run addReproduceVerb(CLI::App& app) {
   auto flags = std::make_shared<ReproduceFlags>();
-  CLI::App* verb = app.add_subcommand(
-      "reproduce", "a paper's figures and tables made again, and whether its claims hold here");
+  CLI::App* verb =
+      app.add_subcommand("reproduce", "a paper's figures and tables made again, and whether its claims hold here");
   std::string papers;
   for (const std::string& paper : reproduciblePapers()) papers += (papers.empty() ? "" : " or ") + paper;
   verb->add_option("PAPER", flags->options.paper, papers)->required();

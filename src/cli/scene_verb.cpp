@@ -32,8 +32,7 @@ int listScenes() {
 
 // Where to write, which must end in `extension`.
 std::filesystem::path outputOf(const SceneVerbFlags& flags, const char* what, const char* extension) {
-  if (flags.out.empty())
-    throw UsageError(fmt::format("{}: say where to write it, with -o FILE{}", what, extension));
+  if (flags.out.empty()) throw UsageError(fmt::format("{}: say where to write it, with -o FILE{}", what, extension));
   if (std::filesystem::path(flags.out).extension() != extension)
     throw UsageError(fmt::format("-o {}: write a {}", flags.out, extension));
   return flags.out;
@@ -43,8 +42,7 @@ int writeScene(const SceneVerbFlags& flags) {
   const std::filesystem::path out = outputOf(flags, fmt::format("scene {}", flags.name).c_str(), ".glb");
   const Scene scene = openScene(flags.name);
   saveGlb(scene, out);
-  std::printf("wrote %s: %llu triangles\n", flags.out.c_str(),
-              static_cast<unsigned long long>(triangleCount(scene)));
+  std::printf("wrote %s: %llu triangles\n", flags.out.c_str(), static_cast<unsigned long long>(triangleCount(scene)));
   return 0;
 }
 
@@ -52,12 +50,11 @@ int writeDensity(const SceneVerbFlags& flags) {
   if (!flags.name.empty())
     throw UsageError(
         fmt::format("--density {}: name the scene that it is for with --for {}", flags.density, flags.name));
-  const std::filesystem::path out =
-      outputOf(flags, fmt::format("--density {}", flags.density).c_str(), ".vdb");
+  const std::filesystem::path out = outputOf(flags, fmt::format("--density {}", flags.density).c_str(), ".vdb");
   const Bounds boundsW = computeBounds(openScene(flags.densityFor));
   const DensitySummary summary = writeGeneratedDensity(flags.density, boundsW, flags.seed, out);
-  std::printf("wrote %s: %llu voxels of %.3g m\n", flags.out.c_str(),
-              static_cast<unsigned long long>(summary.voxels), summary.voxelMetres);
+  std::printf("wrote %s: %llu voxels of %.3g m\n", flags.out.c_str(), static_cast<unsigned long long>(summary.voxels),
+              summary.voxelMetres);
   return 0;
 }
 
@@ -74,8 +71,7 @@ Run addSceneVerb(CLI::App& app) {
       "scene", "write a generated scene as glTF, or a density as OpenVDB; without a name, list them");
   verb->add_option("NAME", flags->name, "a generated scene, `crowd:N` for about N triangles");
   verb->add_option("-o,--out", flags->out, "FILE.glb, or FILE.vdb of a density");
-  CLI::Option* density =
-      verb->add_option("--density", flags->density, "a generated density instead of a scene");
+  CLI::Option* density = verb->add_option("--density", flags->density, "a generated density instead of a scene");
   verb->add_option("--for", flags->densityFor, "scene whose bounds the density fills: a name or a glTF file")
       ->capture_default_str()
       ->needs(density);

@@ -3,7 +3,7 @@
 #include "base/image.h"
 #include "cli/common_flags.h"
 #include "cli/verbs.h"
-#include "lab/volume_report.h"
+#include "lab/volume/volume_report.h"
 
 #include <cstdio>
 #include <memory>

@@ -61,8 +61,8 @@ void checkBindings(const Program& program, const std::vector<Binding>& given) {
                     fmt::format("{} '{}', which it declares", typeName(binding.type), binding.name));
   }
   for (const Binding& binding : given) {
-    const bool known = std::any_of(declared.begin(), declared.end(),
-                                   [&](const auto& other) { return other.index == binding.index; });
+    const bool known =
+        std::any_of(declared.begin(), declared.end(), [&](const auto& other) { return other.index == binding.index; });
     if (known) continue;
     GNOMON_CHECK_EQ(fmt::format("{} is given binding {}", program.name(), binding.index),
                     fmt::format("the {} bindings that it declares, not this one", declared.size()));
@@ -127,9 +127,7 @@ VkRenderingAttachmentInfo attachment(const Image& image, std::optional<uint32_t>
 }
 
 VkExtent2D extentOf(const RenderTargets& targets) {
-  const Image* first = targets.depth            ? targets.depth
-                       : targets.colors.empty() ? nullptr
-                                                : targets.colors[0].image;
+  const Image* first = targets.depth ? targets.depth : targets.colors.empty() ? nullptr : targets.colors[0].image;
   GNOMON_CHECK(first != nullptr);
   const VkExtent2D extent{first->desc().width, first->desc().height};
   for (const ColorTarget& color : targets.colors) {
@@ -262,14 +260,13 @@ void Commands::bindIndexBuffer(const Buffer& buffer) {
   vkCmdBindIndexBuffer(commands_, buffer.handle(), 0, VK_INDEX_TYPE_UINT32);
 }
 
-void Commands::drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex,
-                           int32_t vertexOffset, uint32_t firstInstance) {
+void Commands::drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex, int32_t vertexOffset,
+                           uint32_t firstInstance) {
   GNOMON_CHECK(inRendering_);
   vkCmdDrawIndexed(commands_, indexCount, instanceCount, firstIndex, vertexOffset, firstInstance);
 }
 
-void Commands::draw(uint32_t vertexCount, uint32_t instanceCount, uint32_t firstVertex,
-                    uint32_t firstInstance) {
+void Commands::draw(uint32_t vertexCount, uint32_t instanceCount, uint32_t firstVertex, uint32_t firstInstance) {
   GNOMON_CHECK(inRendering_);
   vkCmdDraw(commands_, vertexCount, instanceCount, firstVertex, firstInstance);
 }
@@ -338,8 +335,7 @@ std::vector<StageTime> Commands::readStages() const {
   std::vector<StageTime> stages;
   std::vector<uint64_t> ticks(2 * stageNames_.size());
   if (queries_)
-    GNOMON_VK_CHECK(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0,
-                                          static_cast<uint32_t>(ticks.size()),
+    GNOMON_VK_CHECK(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, static_cast<uint32_t>(ticks.size()),
                                           ticks.size() * sizeof(uint64_t), ticks.data(), sizeof(uint64_t),
                                           VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
   // Fewer than 64 valid bits wrap around, so the difference is taken within them.

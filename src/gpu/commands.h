@@ -70,8 +70,7 @@ class Commands {
 
   // Viewport and scissor cover the targets; culling is off until setCulling.
   void beginRendering(const RenderTargets& targets);
-  void bind(const GraphicsProgram& program, std::span<const std::byte> push,
-            const std::vector<Binding>& bindings);
+  void bind(const GraphicsProgram& program, std::span<const std::byte> push, const std::vector<Binding>& bindings);
   void setCulling(VkCullModeFlags mode, VkFrontFace front);
   void bindIndexBuffer(const Buffer& buffer);  // 32-bit indices
   void drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex, int32_t vertexOffset,

@@ -139,8 +139,7 @@ struct Candidate {
 // The first device that will do, by name or by rank. Throws WorldError.
 Candidate chooseDevice(VkInstance instance, const std::string& name) {
   std::vector<VkPhysicalDevice> devices = physicalDevices(instance);
-  if (devices.empty())
-    throw WorldError("no Vulkan device; install a driver: apt-get install mesa-vulkan-drivers");
+  if (devices.empty()) throw WorldError("no Vulkan device; install a driver: apt-get install mesa-vulkan-drivers");
   std::vector<std::string> names;
   for (VkPhysicalDevice device : devices) names.push_back(fmt::format("'{}'", describe(device).name));
   if (!name.empty())
@@ -148,8 +147,7 @@ Candidate chooseDevice(VkInstance instance, const std::string& name) {
       return lowerCase(describe(device).name).find(lowerCase(name)) == std::string::npos;
     });
   if (devices.empty())
-    throw WorldError(
-        fmt::format("no Vulkan device is named '{}'; there is {}", name, fmt::join(names, ", ")));
+    throw WorldError(fmt::format("no Vulkan device is named '{}'; there is {}", name, fmt::join(names, ", ")));
   if (name.empty())
     std::stable_sort(devices.begin(), devices.end(),
                      [](VkPhysicalDevice a, VkPhysicalDevice b) { return rank(a) < rank(b); });
@@ -181,9 +179,8 @@ uint32_t chooseQueueFamily(VkPhysicalDevice device, uint32_t& timestampValidBits
     timestampValidBits = families[i].timestampValidBits;
     return i;
   }
-  throw WorldError(
-      fmt::format("device '{}' has no queue that draws and computes; choose another with --device",
-                  describe(device).name));
+  throw WorldError(fmt::format("device '{}' has no queue that draws and computes; choose another with --device",
+                               describe(device).name));
 }
 
 template <typename Function>
@@ -197,8 +194,7 @@ Function load(VkDevice device, const char* name) {
 struct DeviceBuilder {
   Device& device;
 
-  static VKAPI_ATTR VkBool32 VKAPI_CALL hear(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                             VkDebugUtilsMessageTypeFlagsEXT,
+  static VKAPI_ATTR VkBool32 VKAPI_CALL hear(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     auto& messages = *static_cast<Device::Messages*>(user);
     const std::string text = data->pMessage ? data->pMessage : "";
@@ -214,8 +210,7 @@ struct DeviceBuilder {
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     // Not the performance messages: they object to GENERAL layouts, which are the house rule.
-    info.messageType =
-        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
+    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
     info.pfnUserCallback = hear;
     info.pUserData = device.messages_.get();
     return info;
@@ -227,8 +222,7 @@ struct DeviceBuilder {
           fmt::format("validation was asked for, but {} is not installed; apt-get install "
                       "vulkan-validationlayers, or unset GNOMON_VALIDATION",
                       kValidationLayer));
-    const VkValidationFeatureEnableEXT synchronization =
-        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    const VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &synchronization;
@@ -251,8 +245,7 @@ struct DeviceBuilder {
     device.info_ = describe(chosen.device);
     device.queueFamily_ = chooseQueueFamily(chosen.device, device.info_.timestampValidBits);
     Features features = enabledFeatures(chosen.capabilities);
-    device.info_.orderedAttachmentAccess =
-        features.ordered.rasterizationOrderColorAttachmentAccess == VK_TRUE;
+    device.info_.orderedAttachmentAccess = features.ordered.rasterizationOrderColorAttachmentAccess == VK_TRUE;
     device.info_.tessellation = features.core.features.tessellationShader == VK_TRUE;
     features.chain(chosen.capabilities.has(VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME));
 
@@ -322,8 +315,7 @@ std::vector<std::string> Device::takeValidationMessages() const {
   return std::exchange(messages_->list, {});
 }
 
-uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags required,
-                            VkMemoryPropertyFlags preferred) const {
+uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const {
   // The first of the best: Vulkan lists types with fewer needless properties earlier.
   std::optional<uint32_t> best;
   int bestCount = -1;
@@ -336,9 +328,8 @@ uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags required,
     bestCount = count;
   }
   if (!best)
-    throw WorldError(
-        fmt::format("device '{}' has no memory type with properties {:#x}; choose another with --device",
-                    info_.name, required));
+    throw WorldError(fmt::format("device '{}' has no memory type with properties {:#x}; choose another with --device",
+                                 info_.name, required));
   return *best;
 }
 

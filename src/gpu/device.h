@@ -72,8 +72,7 @@ class Device {
   std::vector<std::string> takeValidationMessages() const;
 
   // A memory type with the wanted properties; falls back to fewer of the preferred ones. Throws WorldError.
-  uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags required,
-                      VkMemoryPropertyFlags preferred) const;
+  uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
 
   void nameObject(VkObjectType type, uint64_t handle, const char* name) const;
 

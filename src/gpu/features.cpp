@@ -68,12 +68,10 @@ Capabilities queryCapabilities(VkPhysicalDevice device) {
   GNOMON_VK_CHECK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr));
   std::vector<VkExtensionProperties> extensions(count);
   GNOMON_VK_CHECK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()));
-  for (const VkExtensionProperties& extension : extensions)
-    capabilities.extensions.push_back(extension.extensionName);
+  for (const VkExtensionProperties& extension : extensions) capabilities.extensions.push_back(extension.extensionName);
   // The 1.1, 1.2 and 1.3 structs may only be asked of a device that knows them.
   if (capabilities.apiVersion >= VK_API_VERSION_1_3) {
-    capabilities.features.chain(
-        capabilities.has(VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME));
+    capabilities.features.chain(capabilities.has(VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME));
     vkGetPhysicalDeviceFeatures2(device, &capabilities.features.core);
   }
   return capabilities;

@@ -48,8 +48,7 @@ bool belongsTo(const std::string& bytes, VkPhysicalDevice physical) {
 
 }  // namespace
 
-OwnedChild<VkPipelineCache, vkDestroyPipelineCache> createPipelineCache(VkPhysicalDevice physical,
-                                                                        VkDevice device) {
+OwnedChild<VkPipelineCache, vkDestroyPipelineCache> createPipelineCache(VkPhysicalDevice physical, VkDevice device) {
   std::string bytes = readIfThere(cacheFile(physical));
   if (!belongsTo(bytes, physical)) bytes.clear();
   VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};

@@ -9,8 +9,7 @@
 namespace gnomon::gpu {
 
 // Starts from the file when it belongs to this device and driver, else empty; file trouble is passed over.
-OwnedChild<VkPipelineCache, vkDestroyPipelineCache> createPipelineCache(VkPhysicalDevice physical,
-                                                                        VkDevice device);
+OwnedChild<VkPipelineCache, vkDestroyPipelineCache> createPipelineCache(VkPhysicalDevice physical, VkDevice device);
 
 // Writes the file when its content would change; trouble is passed over.
 void savePipelineCache(VkPhysicalDevice physical, VkDevice device, VkPipelineCache cache) noexcept;

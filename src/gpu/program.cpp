@@ -34,8 +34,7 @@ void merge(ProgramInterface& into, const ProgramInterface& stage, const std::str
                       name, binding.index, same->name, binding.name));
     same->stages |= binding.stages;
   }
-  std::sort(into.bindings.begin(), into.bindings.end(),
-            [](const auto& a, const auto& b) { return a.index < b.index; });
+  std::sort(into.bindings.begin(), into.bindings.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
   into.pushConstantBytes = std::max(into.pushConstantBytes, stage.pushConstantBytes);
   into.pushConstantStages |= stage.pushConstantStages;
 }
@@ -83,8 +82,9 @@ OwnedChild<VkSampler, vkDestroySampler> createNearestSampler(const Device& devic
   return {device.handle(), sampler};
 }
 
-OwnedChild<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> createSetLayout(
-    const Device& device, const ProgramInterface& interface, VkSampler sampler) {
+OwnedChild<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> createSetLayout(const Device& device,
+                                                                                const ProgramInterface& interface,
+                                                                                VkSampler sampler) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const ProgramInterface::Binding& binding : interface.bindings) {
     const bool sampled = binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
@@ -115,12 +115,9 @@ OwnedChild<VkPipelineLayout, vkDestroyPipelineLayout> createLayout(const Device&
 
 // Everything of the graphics state that is not the same for all programs.
 VkPipeline createGraphicsPipeline(const Device& device, const GraphicsDesc& desc,
-                                  const std::vector<VkPipelineShaderStageCreateInfo>& stages,
-                                  VkPipelineLayout layout) {
-  const VkPipelineVertexInputStateCreateInfo vertexInput{
-      VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-  VkPipelineInputAssemblyStateCreateInfo assembly{
-      VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+                                  const std::vector<VkPipelineShaderStageCreateInfo>& stages, VkPipelineLayout layout) {
+  const VkPipelineVertexInputStateCreateInfo vertexInput{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+  VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
   assembly.topology = desc.topology;
   VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
   viewport.viewportCount = 1;
@@ -137,8 +134,8 @@ VkPipeline createGraphicsPipeline(const Device& device, const GraphicsDesc& desc
   depth.depthWriteEnable = hasDepth && desc.depthWrite;
   depth.depthCompareOp = desc.depthCompare;
   VkPipelineColorBlendAttachmentState target{};
-  target.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                          VK_COLOR_COMPONENT_A_BIT;
+  target.colorWriteMask =
+      VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
   target.blendEnable = desc.minBlend;
   target.srcColorBlendFactor = target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;  // MIN ignores the factors
   target.srcAlphaBlendFactor = target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
@@ -171,8 +168,7 @@ VkPipeline createGraphicsPipeline(const Device& device, const GraphicsDesc& desc
   info.pDynamicState = &dynamic;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
-  GNOMON_VK_CHECK(
-      vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline));
+  GNOMON_VK_CHECK(vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline));
   return pipeline;
 }
 
@@ -180,12 +176,11 @@ VkPipeline createGraphicsPipeline(const Device& device, const GraphicsDesc& desc
 
 void Program::createLayouts(const Device& device) {
   if (interface_.pushConstantBytes > device.info().maxPushConstantBytes)
-    throw WorldError(
-        fmt::format("{}: {} bytes of push constants, and device '{}' has {}; move some to a buffer", name_,
-                    interface_.pushConstantBytes, device.info().name, device.info().maxPushConstantBytes));
-  const bool sampled = std::any_of(
-      interface_.bindings.begin(), interface_.bindings.end(),
-      [](const auto& binding) { return binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER; });
+    throw WorldError(fmt::format("{}: {} bytes of push constants, and device '{}' has {}; move some to a buffer", name_,
+                                 interface_.pushConstantBytes, device.info().name, device.info().maxPushConstantBytes));
+  const bool sampled = std::any_of(interface_.bindings.begin(), interface_.bindings.end(), [](const auto& binding) {
+    return binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+  });
   if (sampled) sampler_ = createNearestSampler(device);
   setLayout_ = createSetLayout(device, interface_, sampler_.get());
   nameObject(device, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, setLayout_.get(), name_);
@@ -210,8 +205,7 @@ ComputeProgram::ComputeProgram(const Device& device, const ShaderSource& shader,
   info.stage = stages.infos[0];
   info.layout = layout();
   VkPipeline pipeline = VK_NULL_HANDLE;
-  GNOMON_VK_CHECK(
-      vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline));
+  GNOMON_VK_CHECK(vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline));
   adopt(device, pipeline);
 }
 
@@ -219,8 +213,8 @@ const ComputeProgram& ComputePrograms::get(const std::string& path,
                                            const std::vector<Specialization>& specializations) const {
   for (const auto& entry : entries_)
     if (entry->path == path && entry->specializations == specializations) return entry->program;
-  entries_.push_back(std::make_unique<Entry>(
-      Entry{path, specializations, ComputeProgram(device_, {path, {}}, specializations)}));
+  entries_.push_back(
+      std::make_unique<Entry>(Entry{path, specializations, ComputeProgram(device_, {path, {}}, specializations)}));
   return entries_.back()->program;
 }
 

@@ -62,8 +62,7 @@ class ComputeProgram : public Program {
 class ComputePrograms {
  public:
   explicit ComputePrograms(const Device& device) : device_(device) {}
-  const ComputeProgram& get(const std::string& path,
-                            const std::vector<Specialization>& specializations = {}) const;
+  const ComputeProgram& get(const std::string& path, const std::vector<Specialization>& specializations = {}) const;
 
  private:
   struct Entry {

@@ -60,11 +60,10 @@ ProgramInterface::Binding bindingOf(spvc_compiler compiler, const spvc_reflected
   binding.name = instance && *instance ? instance : resource.name;
   const uint32_t set = spvc_compiler_get_decoration(compiler, resource.id, SpvDecorationDescriptorSet);
   if (set != 0)
-    throw WorldError(
-        fmt::format("binding '{}' is in set {}; every binding must be in set 0", binding.name, set));
+    throw WorldError(fmt::format("binding '{}' is in set {}; every binding must be in set 0", binding.name, set));
   if (spvc_type_get_num_array_dimensions(spvc_compiler_get_type_handle(compiler, resource.type_id)) != 0)
-    throw WorldError(fmt::format("binding '{}' is an array of resources; use an array texture or one buffer",
-                                 binding.name));
+    throw WorldError(
+        fmt::format("binding '{}' is an array of resources; use an array texture or one buffer", binding.name));
   return binding;
 }
 
@@ -78,8 +77,8 @@ ProgramInterface reflect(const std::vector<uint32_t>& spirv, VkShaderStageFlagBi
   spvc_compiler compiler = nullptr;
   spvc_resources resources = nullptr;
   check(context, spvc_context_parse_spirv(context, spirv.data(), spirv.size(), &ir));
-  check(context, spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir,
-                                              SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &compiler));
+  check(context,
+        spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &compiler));
   // What main reaches, and not what an included file declares: the layout then holds nothing that a call
   // would leave unwritten.
   spvc_set active = nullptr;
@@ -95,16 +94,14 @@ ProgramInterface reflect(const std::vector<uint32_t>& spirv, VkShaderStageFlagBi
   for (const spvc_resource_type type : kRefused) {
     const ResourceList found = list(context, resources, type);
     if (found.count > 0)
-      throw WorldError(
-          fmt::format("'{}' is of a kind that Gnomon does not bind; use buffers, images and textures",
-                      found.items[0].name));
+      throw WorldError(fmt::format("'{}' is of a kind that Gnomon does not bind; use buffers, images and textures",
+                                   found.items[0].name));
   }
   const ResourceList push = list(context, resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT);
   if (push.count > 0) {
     size_t bytes = 0;
-    check(context,
-          spvc_compiler_get_declared_struct_size(
-              compiler, spvc_compiler_get_type_handle(compiler, push.items[0].base_type_id), &bytes));
+    check(context, spvc_compiler_get_declared_struct_size(
+                       compiler, spvc_compiler_get_type_handle(compiler, push.items[0].base_type_id), &bytes));
     interface.pushConstantBytes = static_cast<uint32_t>(bytes);
     interface.pushConstantStages = stage;
   }

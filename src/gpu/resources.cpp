@@ -15,9 +15,8 @@ namespace {
 // Large enough to amortize a submission, small enough not to double the memory of a large upload.
 constexpr VkDeviceSize kStagingBytes = 16u << 20;
 
-constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
-                                            VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |
-                                            VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+constexpr VkMemoryPropertyFlags kMappable =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 
 double mebibytes(VkDeviceSize bytes) {
   return static_cast<double>(bytes) / (1 << 20);
@@ -34,12 +33,11 @@ bool isOutOfMemory(VkResult result) {
 
 WorldError outOfMemory(const Device& device, const char* name, VkDeviceSize bytes) {
   return WorldError(fmt::format(
-      "'{}' needs {:.1f} MiB, which '{}' does not have free; choose smaller maps or images, or fewer of them",
-      name, mebibytes(bytes), device.info().name));
+      "'{}' needs {:.1f} MiB, which '{}' does not have free; choose smaller maps or images, or fewer of them", name,
+      mebibytes(bytes), device.info().name));
 }
 
-void checkMade(const Device& device, VkResult result, const char* call, const char* name,
-               VkDeviceSize bytes) {
+void checkMade(const Device& device, VkResult result, const char* call, const char* name, VkDeviceSize bytes) {
   if (isOutOfMemory(result)) throw outOfMemory(device, name, bytes);
   if (result != VK_SUCCESS) throwVulkanError(result, call);
 }
@@ -66,8 +64,7 @@ Allocation allocate(const Device& device, const char* name, const VkMemoryRequir
                               VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                               VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
   VkDeviceMemory handle = VK_NULL_HANDLE;
-  checkMade(device, vkAllocateMemory(device.handle(), &info, nullptr, &handle), "vkAllocateMemory", name,
-            needs.size);
+  checkMade(device, vkAllocateMemory(device.handle(), &info, nullptr, &handle), "vkAllocateMemory", name, needs.size);
   Allocation allocation{{device.handle(), handle}, true};
   nameObject(device, VK_OBJECT_TYPE_DEVICE_MEMORY, handle, name);
   VkPhysicalDeviceMemoryProperties memory{};
@@ -133,17 +130,17 @@ VkImageCreateInfo imageInfo(const ImageDesc& desc) {
 void checkLimits(const Device& device, const ImageDesc& desc) {
   const DeviceInfo& limits = device.info();
   if (std::max(desc.width, desc.height) > limits.maxImageDimension2D)
-    throw WorldError(fmt::format(
-        "'{}' is {} x {} texels, and the device's largest image is {} x {}; choose a "
-        "smaller size",
-        desc.name, desc.width, desc.height, limits.maxImageDimension2D, limits.maxImageDimension2D));
+    throw WorldError(
+        fmt::format("'{}' is {} x {} texels, and the device's largest image is {} x {}; choose a "
+                    "smaller size",
+                    desc.name, desc.width, desc.height, limits.maxImageDimension2D, limits.maxImageDimension2D));
   if (desc.layerCount > limits.maxImageLayers)
     throw WorldError(fmt::format("'{}' has {} layers, and the device's most is {}; choose fewer", desc.name,
                                  desc.layerCount, limits.maxImageLayers));
   const VkImageCreateInfo info = imageInfo(desc);
   VkImageFormatProperties properties{};
-  const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
-      device.physical(), info.format, info.imageType, info.tiling, info.usage, info.flags, &properties);
+  const VkResult result = vkGetPhysicalDeviceImageFormatProperties(device.physical(), info.format, info.imageType,
+                                                                   info.tiling, info.usage, info.flags, &properties);
   if (result == VK_ERROR_FORMAT_NOT_SUPPORTED)
     throw WorldError(
         fmt::format("'{}': device '{}' has no images of VkFormat {} with usage {:#x}; choose another "
@@ -154,9 +151,8 @@ void checkLimits(const Device& device, const ImageDesc& desc) {
     throw tooLarge(desc.name, packedBytes(desc), "the device's largest image", properties.maxResourceSize);
 }
 
-OwnedChild<VkImageView, vkDestroyImageView> createView(const Device& device, VkImage image,
-                                                       const ImageDesc& desc, VkImageViewType type,
-                                                       VkImageSubresourceRange range) {
+OwnedChild<VkImageView, vkDestroyImageView> createView(const Device& device, VkImage image, const ImageDesc& desc,
+                                                       VkImageViewType type, VkImageSubresourceRange range) {
   VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   info.image = image;
   info.viewType = type;
@@ -200,8 +196,7 @@ Buffer::Buffer(const Device& device, const BufferDesc& desc) : size_(desc.size =
   info.size = size_;
   info.usage = desc.usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   VkBuffer handle = VK_NULL_HANDLE;
-  checkMade(device, vkCreateBuffer(device.handle(), &info, nullptr, &handle), "vkCreateBuffer", desc.name,
-            size_);
+  checkMade(device, vkCreateBuffer(device.handle(), &info, nullptr, &handle), "vkCreateBuffer", desc.name, size_);
   buffer_ = {device.handle(), handle};
   nameObject(device, VK_OBJECT_TYPE_BUFFER, handle, desc.name);
 
@@ -241,8 +236,7 @@ Image::Image(const Device& device, const ImageDesc& desc) : desc_(desc) {
     const VkImageViewType type = desc.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
     view_ = createView(device, handle, desc, type, {aspect(), 0, 1, 0, desc.layerCount});
     for (uint32_t layer = 0; layer < desc.layerCount; ++layer)
-      layerViews_.push_back(
-          createView(device, handle, desc, VK_IMAGE_VIEW_TYPE_2D, {aspect(), 0, 1, layer, 1}));
+      layerViews_.push_back(createView(device, handle, desc, VK_IMAGE_VIEW_TYPE_2D, {aspect(), 0, 1, layer, 1}));
   }
   bringToGeneral(device, *this);
 }
@@ -296,8 +290,7 @@ std::vector<std::byte> download(const Device& device, const Buffer& buffer, VkDe
 std::vector<std::byte> download(const Device& device, const Image& image) {
   const VkDeviceSize size = packedBytes(image.desc());
   GNOMON_CHECK(size > 0);  // texelBytes knows the format
-  const Buffer staging(
-      device, {.name = "staging for download", .size = size, .usage = 0, .memory = Memory::Readback});
+  const Buffer staging(device, {.name = "staging for download", .size = size, .usage = 0, .memory = Memory::Readback});
   Commands commands(device, "download image");
   commands.copy(image, staging);
   commands.submitAndWait();

@@ -58,9 +58,8 @@ struct Stage {
 };
 
 const Stage kStages[] = {
-    {".vert.glsl", EShLangVertex},         {".frag.glsl", EShLangFragment},
-    {".comp.glsl", EShLangCompute},        {".tesc.glsl", EShLangTessControl},
-    {".tese.glsl", EShLangTessEvaluation}, {".geom.glsl", EShLangGeometry},
+    {".vert.glsl", EShLangVertex},      {".frag.glsl", EShLangFragment},       {".comp.glsl", EShLangCompute},
+    {".tesc.glsl", EShLangTessControl}, {".tese.glsl", EShLangTessEvaluation}, {".geom.glsl", EShLangGeometry},
 };
 
 EShLanguage stageOf(const std::string& path) {
@@ -116,8 +115,7 @@ class Expander {
     if (!seen_.insert(path).second) return;
     const std::optional<std::string> content = findSource(source_, path);
     if (!content)
-      throw WorldError(
-          fmt::format("{}: there is no shader file '{}'{}", from.empty() ? path : from, path, where()));
+      throw WorldError(fmt::format("{}: there is no shader file '{}'{}", from.empty() ? path : from, path, where()));
     text_ += fmt::format("#line 1 \"{}\"\n", path);
     int lineNumber = 1;
     for (size_t begin = 0; begin < content->size(); ++lineNumber) {
@@ -164,8 +162,7 @@ std::string errorLines(const std::string& path, const char* log) {
   return fmt::format("{}", fmt::join(messages, "; "));
 }
 
-std::vector<uint32_t> compileWithGlslang(const std::string& path, EShLanguage stage,
-                                         const std::string& text) {
+std::vector<uint32_t> compileWithGlslang(const std::string& path, EShLanguage stage, const std::string& text) {
   static std::once_flag initialized;
   std::call_once(initialized, [] { glslang::InitializeProcess(); });
 
@@ -177,8 +174,7 @@ std::vector<uint32_t> compileWithGlslang(const std::string& path, EShLanguage st
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
   const auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-  if (!shader.parse(GetDefaultResources(), 460, false, rules))
-    throw WorldError(errorLines(path, shader.getInfoLog()));
+  if (!shader.parse(GetDefaultResources(), 460, false, rules)) throw WorldError(errorLines(path, shader.getInfoLog()));
   glslang::TProgram program;
   program.addShader(&shader);
   if (!program.link(rules)) throw WorldError(errorLines(path, program.getInfoLog()));
@@ -197,8 +193,7 @@ std::vector<uint32_t> compileWithGlslang(const std::string& path, EShLanguage st
 void setShaderDirectory(const fs::path& folder) {
   std::error_code failure;
   if (!fs::is_directory(folder, failure))
-    throw fileError(folder.string(), "is no folder of shaders",
-                    "give the path of a copy of Gnomon's shaders folder");
+    throw fileError(folder.string(), "is no folder of shaders", "give the path of a copy of Gnomon's shaders folder");
   std::lock_guard lock(shaderDirectoryMutex);
   shaderDirectory = folder;
 }
@@ -220,9 +215,8 @@ std::vector<uint32_t> compileShader(const ShaderSource& source) {
   const EShLanguage stage = stageOf(source.path);
   const std::string text = expandShader(source);
   const glslang::Version version = glslang::GetVersion();
-  const Hash128 key =
-      hashText(fmt::format("stage {} glslang {}.{}.{}{} Vulkan 1.3\n{}", static_cast<int>(stage),
-                           version.major, version.minor, version.patch, version.flavor, text));
+  const Hash128 key = hashText(fmt::format("stage {} glslang {}.{}.{}{} Vulkan 1.3\n{}", static_cast<int>(stage),
+                                           version.major, version.minor, version.patch, version.flavor, text));
   if (std::optional<std::vector<uint32_t>> cached = readCachedSpirv(key)) {
     ++foundCount;
     return std::move(*cached);

@@ -19,8 +19,7 @@ void setShaderDirectory(const std::filesystem::path& folder);
 std::filesystem::path cacheDirectory();
 
 struct ShaderSource {
-  std::string
-      path;  // "shadow/shade_visibility.comp.glsl", below the shaders folder; the stage is in the name
+  std::string path;  // "shadow/shade_visibility.comp.glsl", below the shaders folder; the stage is in the name
   // Replaces or adds files for the #include resolver: a user's own bias, a test's variant.
   std::map<std::string, std::string> overrides;
 };

@@ -18,8 +18,7 @@ constexpr int kPassesVersion = 1;
 
 Hash128 keyOf(const std::vector<uint32_t>& spirv, const std::vector<Specialization>& specializations) {
   std::string text = fmt::format("specialized {}", kPassesVersion);
-  for (const Specialization& constant : specializations)
-    text += fmt::format(" {}={}", constant.id, constant.value);
+  for (const Specialization& constant : specializations) text += fmt::format(" {}={}", constant.id, constant.value);
   text.append(reinterpret_cast<const char*>(spirv.data()), spirv.size() * sizeof(uint32_t));
   return hashText(text);
 }
@@ -32,8 +31,7 @@ std::vector<uint32_t> specialize(const std::vector<uint32_t>& spirv,
   if (std::optional<std::vector<uint32_t>> cached = readCachedSpirv(key)) return std::move(*cached);
 
   std::unordered_map<uint32_t, std::vector<uint32_t>> values;
-  for (const Specialization& constant : specializations)
-    values[constant.id] = {static_cast<uint32_t>(constant.value)};
+  for (const Specialization& constant : specializations) values[constant.id] = {static_cast<uint32_t>(constant.value)};
   spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
   optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
       .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())

@@ -59,11 +59,9 @@ std::optional<std::vector<uint32_t>> readCachedSpirv(const Hash128& key) {
   if (bytes.size() < sizeof(header)) return std::nullopt;
   std::memcpy(&header, bytes.data(), sizeof(header));
   const std::string_view body = std::string_view(bytes).substr(sizeof(header));
-  if (header.magic != kMagic || header.formatVersion != kFormatVersion || header.key != key)
-    return std::nullopt;
+  if (header.magic != kMagic || header.formatVersion != kFormatVersion || header.key != key) return std::nullopt;
   if (body.empty() || body.size() % sizeof(uint32_t) != 0) return std::nullopt;
-  if (header.wordCount != body.size() / sizeof(uint32_t) || header.checksum != hashText(body))
-    return std::nullopt;
+  if (header.wordCount != body.size() / sizeof(uint32_t) || header.checksum != hashText(body)) return std::nullopt;
   std::vector<uint32_t> spirv(header.wordCount);
   std::memcpy(spirv.data(), body.data(), body.size());
   return spirv;

@@ -60,8 +60,8 @@ std::string remedyFor(VkResult result) {
 void throwVulkanError(VkResult result, const char* call) {
   // The macro hands over the whole expression; its name is enough for one line.
   const std::string expression = call;
-  throw WorldError(fmt::format("{} failed: {}; {}", expression.substr(0, expression.find('(')),
-                               resultName(result), remedyFor(result)));
+  throw WorldError(fmt::format("{} failed: {}; {}", expression.substr(0, expression.find('(')), resultName(result),
+                               remedyFor(result)));
 }
 
 }  // namespace gnomon::gpu

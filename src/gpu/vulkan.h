@@ -44,8 +44,7 @@ class OwnedChild {
  public:
   OwnedChild() = default;
   OwnedChild(VkDevice device, Handle handle) : device_(device), handle_(handle) {}
-  OwnedChild(OwnedChild&& other) noexcept
-      : device_(other.device_), handle_(std::exchange(other.handle_, Handle{})) {}
+  OwnedChild(OwnedChild&& other) noexcept : device_(other.device_), handle_(std::exchange(other.handle_, Handle{})) {}
   OwnedChild& operator=(OwnedChild&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(handle_, other.handle_);

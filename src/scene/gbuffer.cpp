@@ -57,8 +57,7 @@ GBuffer::GBuffer(const gpu::Device& device, int width, int height)
                       .height = static_cast<uint32_t>(height),
                       .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}) {}
 
-void GBuffer::record(gpu::Commands& commands, const SceneBuffers& scene,
-                     const glsl::CameraView& camera) const {
+void GBuffer::record(gpu::Commands& commands, const SceneBuffers& scene, const glsl::CameraView& camera) const {
   commands.beginRendering({.colors = {{.image = &ids_, .clear = VkClearColorValue{.uint32 = {0, 0, 0, 0}}}},
                            .depth = &depth_,
                            .clearDepth = 0.0f});
@@ -74,13 +73,11 @@ void GBuffer::record(gpu::Commands& commands, const SceneBuffers& scene,
     commands.setCulling(VK_CULL_MODE_NONE, VK_FRONT_FACE_COUNTER_CLOCKWISE);
     recordDraws(commands, scene, [&](const Draw& draw) { return draw.masked == masked && draw.doubleSided; });
     commands.setCulling(VK_CULL_MODE_BACK_BIT, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-    recordDraws(commands, scene, [&](const Draw& draw) {
-      return draw.masked == masked && !draw.doubleSided && !draw.mirrored;
-    });
+    recordDraws(commands, scene,
+                [&](const Draw& draw) { return draw.masked == masked && !draw.doubleSided && !draw.mirrored; });
     commands.setCulling(VK_CULL_MODE_BACK_BIT, VK_FRONT_FACE_CLOCKWISE);
-    recordDraws(commands, scene, [&](const Draw& draw) {
-      return draw.masked == masked && !draw.doubleSided && draw.mirrored;
-    });
+    recordDraws(commands, scene,
+                [&](const Draw& draw) { return draw.masked == masked && !draw.doubleSided && draw.mirrored; });
   }
   commands.endRendering();
 }

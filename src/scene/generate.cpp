@@ -34,29 +34,22 @@ std::optional<Scene> openSizedCrowd(const std::string& name) {
 
 const std::vector<GeneratedScene>& generatedScenes() {
   static const std::vector<GeneratedScene> scenes = {
-      {"lshape",
-       "self-shadowing at silhouettes and light at the foot of a crease: Weiskopf & Ertl 2003, figure 5.",
+      {"lshape", "self-shadowing at silhouettes and light at the foot of a crease: Weiskopf & Ertl 2003, figure 5.",
        makeLshape},
       {"double-torus",
        "self-unshadowing of midpoint maps on curved solids, and its filtering: Weiskopf & Ertl 2003, figure "
        "6.",
        makeDoubleTorus},
-      {"factory",
-       "thin and thick casters side by side, at the size of a real scene: Weiskopf & Ertl 2003, figure 7.",
+      {"factory", "thin and thick casters side by side, at the size of a real scene: Weiskopf & Ertl 2003, figure 7.",
        makeFactory},
-      {"atrium",
-       "acne on steep columns and detachment under arches, lit from inside: the class of Dou et al. 2014.",
+      {"atrium", "acne on steep columns and detachment under arches, lit from inside: the class of Dou et al. 2014.",
        makeAtrium},
       {"corner", "acne alone: nothing casts a shadow in a concave corner of three planes.", makeCorner},
-      {"grate",
-       "thin casters near the light, whose shadows fan out, and shafts: Wyman 2011, Dou et al. 2014.",
+      {"grate", "thin casters near the light, whose shadows fan out, and shafts: Wyman 2011, Dou et al. 2014.",
        makeGrate},
-      {"sheets", "casters without thickness or back faces: leaves, a curtain and an alpha-masked fence.",
-       makeSheets},
-      {"contact", "detached shadows (peter-panning) where boxes, spheres and cylinders touch the floor.",
-       makeContact},
-      {"slope", "acne as a function of the angle to the light: planes from facing it to 88.5 degrees off.",
-       makeSlope},
+      {"sheets", "casters without thickness or back faces: leaves, a curtain and an alpha-masked fence.", makeSheets},
+      {"contact", "detached shadows (peter-panning) where boxes, spheres and cylinders touch the floor.", makeContact},
+      {"slope", "acne as a function of the angle to the light: planes from facing it to 88.5 degrees off.", makeSlope},
       {"near-far", "a bias in metres cannot be right at one metre and at forty: Dou et al. 2014, figure 7.",
        makeNearFar},
       {"crowd", "vertex work: instances of shared meshes; crowd:N has about N triangles, to 19 million.",
@@ -77,8 +70,7 @@ Scene openScene(const std::string& nameOrPath) {
   std::error_code ignored;
   if (std::filesystem::exists(nameOrPath, ignored)) return loadGltf(nameOrPath);
   std::string names;
-  for (const GeneratedScene& scene : generatedScenes())
-    names += (names.empty() ? "" : ", ") + std::string(scene.name);
+  for (const GeneratedScene& scene : generatedScenes()) names += (names.empty() ? "" : ", ") + std::string(scene.name);
   throw fileError(nameOrPath, "is neither a file nor a generated scene",
                   fmt::format("name a .gltf or .glb file, or one of: {}", names));
 }

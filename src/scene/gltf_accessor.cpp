@@ -51,8 +51,7 @@ AccessorView::AccessorView(const GltfDocument& document, int accessor) : accesso
   const auto refuse = [&](const std::string& what, const char* remedy = kRemedy) {
     document.refuse(fmt::format("accessor {}: {}", accessor, what), remedy);
   };
-  if (source.sparse.isSparse)
-    refuse("is sparse, which Gnomon does not read", "export it with plain accessors");
+  if (source.sparse.isSparse) refuse("is sparse, which Gnomon does not read", "export it with plain accessors");
   if (source.bufferView < 0) refuse("has no bufferView");
   componentCount_ = componentsOf(source.type);
   if (componentCount_ == 0) refuse("is a matrix, which no vertex attribute of a shape is");
@@ -63,16 +62,15 @@ AccessorView::AccessorView(const GltfDocument& document, int accessor) : accesso
   count_ = source.count;
 
   const tinygltf::BufferView& view = model.bufferViews[source.bufferView];
-  const size_t elementSize =
-      static_cast<size_t>(componentCount_) * tinygltf::GetComponentSizeInBytes(componentType_);
+  const size_t elementSize = static_cast<size_t>(componentCount_) * tinygltf::GetComponentSizeInBytes(componentType_);
   stride_ = view.byteStride == 0 ? elementSize : view.byteStride;
   if (stride_ < elementSize)
     refuse(fmt::format("its stride of {} bytes is smaller than its elements of {}", stride_, elementSize));
   // All of these are at most 2^53 and the stride at most 252, so nothing here overflows 64 bits.
   const size_t end = count_ == 0 ? 0 : source.byteOffset + stride_ * (count_ - 1) + elementSize;
   if (end > view.byteLength)
-    refuse(fmt::format("{} elements end at byte {} of bufferView {}, which has {}", count_, end,
-                       source.bufferView, view.byteLength));
+    refuse(fmt::format("{} elements end at byte {} of bufferView {}, which has {}", count_, end, source.bufferView,
+                       view.byteLength));
   const std::vector<unsigned char>& data = model.buffers[view.buffer].data;
   if (view.byteOffset + view.byteLength > data.size()) refuse("its bufferView ends beyond its buffer");
   data_ = data.data() + view.byteOffset + source.byteOffset;

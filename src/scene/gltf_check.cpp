@@ -69,10 +69,8 @@ const std::map<std::string_view, std::vector<Rule>>& shapes() {
        {{"count", Kind::Natural, kRequired},
         {"indices", Kind::Object, kRequired, "sparse part"},
         {"values", Kind::Object, kRequired, "sparse part"}}},
-      {"sparse part",
-       {{"bufferView", Kind::Index, kRequired, "bufferViews"}, {"componentType", Kind::Natural}}},
-      {"image",
-       {{"name", Kind::Text}, {"uri", Kind::Text}, {"bufferView", Kind::Index, false, "bufferViews"}}},
+      {"sparse part", {{"bufferView", Kind::Index, kRequired, "bufferViews"}, {"componentType", Kind::Natural}}},
+      {"image", {{"name", Kind::Text}, {"uri", Kind::Text}, {"bufferView", Kind::Index, false, "bufferViews"}}},
       {"sampler",
        {{"magFilter", Kind::Natural},
         {"minFilter", Kind::Natural},
@@ -99,9 +97,7 @@ const std::map<std::string_view, std::vector<Rule>>& shapes() {
         {"scale", Kind::Numbers, false, "", 2},
         {"texCoord", Kind::Natural}}},
       {"mesh",
-       {{"name", Kind::Text},
-        {"primitives", Kind::Objects, kRequired, "primitive"},
-        {"weights", Kind::Numbers}}},
+       {{"name", Kind::Text}, {"primitives", Kind::Objects, kRequired, "primitive"}, {"weights", Kind::Numbers}}},
       {"primitive",
        {{"attributes", Kind::IndexMap, kRequired, "accessors"},
         {"indices", Kind::Index, false, "accessors"},
@@ -157,8 +153,8 @@ class Checker {
     const std::vector<Rule>& rules = shapes().at(shape);
     if (!object.is_object()) refuse(where, "is not a JSON object");
     for (auto it = object.begin(); it != object.end();) {
-      const bool known = std::any_of(rules.begin(), rules.end(),
-                                     [&](const Rule& rule) { return it.key() == rule.property; });
+      const bool known =
+          std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) { return it.key() == rule.property; });
       it = known ? std::next(it) : object.erase(it);
     }
     for (const Rule& rule : rules) {
@@ -209,8 +205,7 @@ class Checker {
         break;
       case Kind::IndexMap:
         if (!value.is_object()) refuse(named, "is not a JSON object");
-        for (auto& [key, entry] : value.items())
-          checkIndex(entry, fmt::format("{} '{}'", named, key), rule.detail);
+        for (auto& [key, entry] : value.items()) checkIndex(entry, fmt::format("{} '{}'", named, key), rule.detail);
         break;
     }
   }
@@ -219,8 +214,7 @@ class Checker {
     const std::string prefix = where == "glTF" ? "" : where + ", ";
     if (!value.is_array()) refuse(fmt::format("{}'{}'", prefix, rule.property), "is not an array");
     size_t i = 0;
-    for (json& entry : value)
-      checkObject(entry, fmt::format("{}{} {}", prefix, rule.detail, i++), rule.detail);
+    for (json& entry : value) checkObject(entry, fmt::format("{}{} {}", prefix, rule.detail, i++), rule.detail);
   }
 
   void checkNumbers(const json& value, const std::string& named, size_t length) const {
@@ -297,10 +291,9 @@ void checkBuffers(const json& document, const std::string& fileName, bool isBina
     const uint64_t end = naturalAt(views[i], "byteOffset") + naturalAt(views[i], "byteLength");
     const uint64_t buffer = naturalAt(views[i], "buffer"), size = naturalAt(buffers[buffer], "byteLength");
     if (end > size)
-      throw fileError(
-          fileName,
-          fmt::format("bufferView {} ends at byte {} of buffer {}, which has {}", i, end, buffer, size),
-          kRemedy);
+      throw fileError(fileName,
+                      fmt::format("bufferView {} ends at byte {} of buffer {}, which has {}", i, end, buffer, size),
+                      kRemedy);
   }
 }
 

@@ -176,8 +176,7 @@ std::string percentDecoded(const std::string& uri) {
   };
   std::string out;
   for (size_t i = 0; i < uri.size(); ++i) {
-    const bool escaped =
-        uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
+    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
     out += escaped ? static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2])) : uri[i];
     if (escaped) i += 2;
   }
@@ -189,8 +188,7 @@ std::string percentDecoded(const std::string& uri) {
 std::string oneLine(std::string_view text) {
   constexpr size_t kLongest = 240;
   std::string line;
-  for (char c : text.substr(0, text.find('\n')))
-    line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  for (char c : text.substr(0, text.find('\n'))) line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
   if (line.size() > kLongest) line = line.substr(0, kLongest) + "...";
   while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
   return line;
@@ -216,11 +214,10 @@ GltfDocument::GltfDocument(std::string_view bytes, std::string name, fs::path fo
   const uint32_t size = static_cast<uint32_t>(text.size());
   // An absolute folder, so that a name is never looked for in the working folder.
   const std::string base = folder_.empty() ? "" : fs::absolute(folder_).string();
-  const bool read =
-      chunks.binary
-          ? reader.LoadBinaryFromMemory(model_.get(), &errors, &warnings,
-                                        reinterpret_cast<const unsigned char*>(text.data()), size, base)
-          : reader.LoadASCIIFromString(model_.get(), &errors, &warnings, text.data(), size, base);
+  const bool read = chunks.binary
+                        ? reader.LoadBinaryFromMemory(model_.get(), &errors, &warnings,
+                                                      reinterpret_cast<const unsigned char*>(text.data()), size, base)
+                        : reader.LoadASCIIFromString(model_.get(), &errors, &warnings, text.data(), size, base);
   if (!read) refuse("cannot be read as glTF: " + oneLine(errors), kRemedy);
 
   budget_ = kBytesAlways;
@@ -258,8 +255,7 @@ void GltfDocument::refuse(const std::string& what, const std::string& remedy) co
 }
 
 void GltfDocument::spend(uint64_t bytes) {
-  if (bytes > budget_)
-    refuse("its primitives share accessors so often that they unfold beyond reason", kRemedy);
+  if (bytes > budget_) refuse("its primitives share accessors so often that they unfold beyond reason", kRemedy);
   budget_ -= bytes;
 }
 

@@ -67,8 +67,7 @@ void bake(Mesh& mesh, const glm::dmat4& worldFromMesh) {
     normal = size > 0.0 && std::isfinite(size) ? glm::vec3(turned / size) : glm::vec3(0.0f, 1.0f, 0.0f);
   }
   if (sign < 0.0)
-    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-      std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
 }
 
 // Turns the nodes' meshes into the scene's meshes and instances. A mesh that one node uses is baked; those
@@ -115,8 +114,7 @@ class GeometryLoader {
       instances += model.meshes[mesh].primitives.size();
     }
     if (instances > kMaxInstances)
-      document_.refuse(fmt::format("has {} instances, more than {}", instances, kMaxInstances),
-                       "merge meshes");
+      document_.refuse(fmt::format("has {} instances, more than {}", instances, kMaxInstances), "merge meshes");
   }
 
   void loadParts(int index) {
@@ -125,8 +123,8 @@ class GeometryLoader {
     for (size_t k = 0; k < source.primitives.size(); ++k) {
       const int material = source.primitives[k].material;
       const UvSource uvSource = material < 0 ? UvSource{} : uvSources_[material];
-      std::optional<Mesh> mesh = loadPrimitive(document_, source.primitives[k], uvSource,
-                                               fmt::format("mesh {}, primitive {}", index, k));
+      std::optional<Mesh> mesh =
+          loadPrimitive(document_, source.primitives[k], uvSource, fmt::format("mesh {}, primitive {}", index, k));
       if (!mesh || mesh->indices.empty()) continue;
       mesh->name = source.primitives.size() == 1 ? name : fmt::format("{} {}", name, k);
       mesh->material = material < 0 ? defaultMaterial() : material;
@@ -158,8 +156,7 @@ class GeometryLoader {
       if (mesh < 0) continue;
       for (const Part& part : parts_[mesh]) triangles += scene_.meshes[part.mesh].indices.size() / 3;
     }
-    if (triangles == 0)
-      document_.refuse("has no triangles in its scene", "name a file with meshes of triangles");
+    if (triangles == 0) document_.refuse("has no triangles in its scene", "name a file with meshes of triangles");
     if (triangles > kMaxTriangles)
       document_.refuse(fmt::format("has {} triangles, more than 2^31", triangles), "split the scene");
   }
@@ -198,8 +195,7 @@ class GeometryLoader {
   // The corners of the mesh's own bounds, placed, enclose all of its vertices.
   void checkBounds(const Part& part, const PlacedNode& placed) const {
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 point(corner & 1 ? part.upper.x : part.lower.x,
-                             corner & 2 ? part.upper.y : part.lower.y,
+      const glm::dvec3 point(corner & 1 ? part.upper.x : part.lower.x, corner & 2 ? part.upper.y : part.lower.y,
                              corner & 4 ? part.upper.z : part.lower.z);
       checkNear(document_, glm::dvec3(placed.worldFromNode * glm::dvec4(point, 1.0)), placed.node);
     }

@@ -47,8 +47,7 @@ std::optional<Size> pixelSize(const std::string& bytes) {
       continue;
     }
     if (marker < 0xff01 || length < 2) return std::nullopt;
-    const bool frame =
-        marker >= 0xffc0 && marker <= 0xffcf && marker != 0xffc4 && marker != 0xffc8 && marker != 0xffcc;
+    const bool frame = marker >= 0xffc0 && marker <= 0xffcf && marker != 0xffc4 && marker != 0xffc8 && marker != 0xffcc;
     if (frame) return Size{bigEndianAt(bytes, at + 7, 2), bigEndianAt(bytes, at + 5, 2)};
     at += 2 + length;
   }
@@ -82,15 +81,13 @@ class TextureLoader {
     const std::optional<Size> size = pixelSize(bytes);
     if (!size) document_.refuse(what + " is neither PNG nor JPEG", "convert it to one of them");
     const uint64_t pixels = size->width * size->height;
-    if (size->width > 16384 || size->height > 16384 || pixels == 0 ||
-        pixels > kMaxPixelsPerByte * bytes.size())
-      document_.refuse(
-          fmt::format("{} says {} x {} pixels in {} bytes", what, size->width, size->height, bytes.size()),
-          "give an image of 1 to 16384 pixels a side that is whole");
+    if (size->width > 16384 || size->height > 16384 || pixels == 0 || pixels > kMaxPixelsPerByte * bytes.size())
+      document_.refuse(fmt::format("{} says {} x {} pixels in {} bytes", what, size->width, size->height, bytes.size()),
+                       "give an image of 1 to 16384 pixels a side that is whole");
     if (scene_.texels.size() + pixels > kMaxTexels)
       document_.refuse("its textures need more than 2 GiB", "shrink them");
-    const Image8 decoded = decodeImage(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(),
-                                       document_.name() + ": " + what);
+    const Image8 decoded =
+        decodeImage(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), document_.name() + ": " + what);
     glsl::TextureInfo info{};
     info.firstTexel = static_cast<uint32_t>(scene_.texels.size());
     info.width = decoded.width;
@@ -142,8 +139,8 @@ UvSource uvSourceOf(const tinygltf::TextureInfo& info) {
   const double rotation = value.Has("rotation") ? value.Get("rotation").GetNumberAsDouble() : 0.0;
   if (value.Has("texCoord")) source.set = value.Get("texCoord").GetNumberAsInt();
   const double c = std::cos(rotation), s = std::sin(rotation);
-  source.transform = glm::dmat3(glm::dvec3(c * scale.x, -s * scale.x, 0.0),
-                                glm::dvec3(s * scale.y, c * scale.y, 0.0), glm::dvec3(offset, 1.0));
+  source.transform = glm::dmat3(glm::dvec3(c * scale.x, -s * scale.x, 0.0), glm::dvec3(s * scale.y, c * scale.y, 0.0),
+                                glm::dvec3(offset, 1.0));
   return source;
 }
 
@@ -167,8 +164,8 @@ Material materialOf(const GltfDocument& document, const tinygltf::Material& sour
   } else if (source.alphaMode == "BLEND") {
     material.alphaMode = AlphaMode::Mask;
   } else if (source.alphaMode != "OPAQUE") {
-    document.refuse(
-        fmt::format("material {} has the unknown alphaMode '{}'", index, oneLine(source.alphaMode)), kRemedy);
+    document.refuse(fmt::format("material {} has the unknown alphaMode '{}'", index, oneLine(source.alphaMode)),
+                    kRemedy);
   }
   return material;
 }
@@ -179,8 +176,7 @@ std::vector<UvSource> loadMaterials(const GltfDocument& document, Scene& scene) 
   const std::vector<tinygltf::Material>& sources = document.model().materials;
   // Those that are used, in the file's order: a saved scene gets its textures back under the same numbers.
   std::set<int> used;
-  for (const tinygltf::Material& source : sources)
-    used.insert(source.pbrMetallicRoughness.baseColorTexture.index);
+  for (const tinygltf::Material& source : sources) used.insert(source.pbrMetallicRoughness.baseColorTexture.index);
   used.erase(-1);
   TextureLoader textures(document, scene);
   for (int texture : used) textures.load(texture);

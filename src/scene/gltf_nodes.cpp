@@ -52,8 +52,8 @@ std::vector<int> sceneRoots(const GltfDocument& document) {
   for (size_t i = 0; i < model.nodes.size(); ++i) {
     for (int child : model.nodes[i].children) {
       if (parent[child] >= 0)
-        document.refuse(
-            fmt::format("node {} is a child of both node {} and node {}", child, parent[child], i), kRemedy);
+        document.refuse(fmt::format("node {} is a child of both node {} and node {}", child, parent[child], i),
+                        kRemedy);
       parent[child] = static_cast<int>(i);
     }
   }
@@ -77,8 +77,8 @@ std::vector<int> sceneRoots(const GltfDocument& document) {
   std::vector<bool> listed(model.nodes.size(), false);
   for (int root : roots) {
     if (parent[root] >= 0)
-      document.refuse(
-          fmt::format("node {} is a root of the scene and a child of node {}", root, parent[root]), kRemedy);
+      document.refuse(fmt::format("node {} is a root of the scene and a child of node {}", root, parent[root]),
+                      kRemedy);
     if (listed[root]) document.refuse(fmt::format("node {} is listed twice in the scene", root), kRemedy);
     listed[root] = true;
   }

@@ -28,12 +28,11 @@ const int* attributeOf(const tinygltf::Primitive& primitive, const std::string& 
 }
 
 // The corners as the primitive lists them, before strips and fans are taken apart.
-std::vector<uint32_t> readCorners(GltfDocument& document, const tinygltf::Primitive& primitive,
-                                  size_t vertexCount, const std::string& where) {
+std::vector<uint32_t> readCorners(GltfDocument& document, const tinygltf::Primitive& primitive, size_t vertexCount,
+                                  const std::string& where) {
   std::vector<uint32_t> corners;
   if (primitive.indices < 0) {
-    if (vertexCount > UINT32_MAX)
-      document.refuse(where + " has more vertices than 32 bits count", "split it");
+    if (vertexCount > UINT32_MAX) document.refuse(where + " has more vertices than 32 bits count", "split it");
     document.spend(vertexCount * kIndexBytes);
     corners.resize(vertexCount);
     for (size_t i = 0; i < vertexCount; ++i) corners[i] = static_cast<uint32_t>(i);
@@ -62,8 +61,7 @@ std::vector<uint32_t> trianglesOf(GltfDocument& document, std::vector<uint32_t> 
                                   const std::string& where) {
   if (mode == TINYGLTF_MODE_TRIANGLES) {
     if (corners.size() % 3 != 0)
-      document.refuse(fmt::format("{} lists {} corners, not a multiple of 3", where, corners.size()),
-                      kRemedy);
+      document.refuse(fmt::format("{} lists {} corners, not a multiple of 3", where, corners.size()), kRemedy);
     return corners;
   }
   std::vector<uint32_t> triangles;
@@ -119,8 +117,7 @@ void makeFlat(Mesh& mesh) {
 // Normals that are unit to within rounding stay as they are, so that a saved scene loads again equal. Those
 // without a direction get the sum of their triangles' normals.
 void makeUnit(Mesh& mesh) {
-  constexpr double kTolerance =
-      1e-5;  // of the squared length; normalizing in double and rounding errs by 2e-7
+  constexpr double kTolerance = 1e-5;  // of the squared length; normalizing in double and rounding errs by 2e-7
   std::vector<bool> broken(mesh.normals.size(), false);
   bool anyBroken = false;
   for (size_t i = 0; i < mesh.normals.size(); ++i) {
@@ -138,19 +135,17 @@ void makeUnit(Mesh& mesh) {
     if (broken[i]) mesh.normals[i] = unitOrUp(sums[i]);
 }
 
-AccessorView attributeView(GltfDocument& document, int accessor, int components, size_t count,
-                           const char* what) {
+AccessorView attributeView(GltfDocument& document, int accessor, int components, size_t count, const char* what) {
   const AccessorView view(document, accessor);
   if (view.componentCount() != components)
-    document.refuse(fmt::format("accessor {}: {} has {} components, not {}", accessor, what,
-                                view.componentCount(), components),
-                    kRemedy);
+    document.refuse(
+        fmt::format("accessor {}: {} has {} components, not {}", accessor, what, view.componentCount(), components),
+        kRemedy);
   if (view.componentType() == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
     document.refuse(fmt::format("accessor {}: {} is of 32-bit integers", accessor, what), kRemedy);
   if (view.count() != count)
     document.refuse(
-        fmt::format("accessor {}: {} has {} elements for {} positions", accessor, what, view.count(), count),
-        kRemedy);
+        fmt::format("accessor {}: {} has {} elements for {} positions", accessor, what, view.count(), count), kRemedy);
   return view;
 }
 

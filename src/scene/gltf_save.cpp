@@ -37,8 +37,7 @@ int addView(tinygltf::Model& model, const T* values, size_t count, int target) {
 }
 
 template <typename T>
-int addAccessor(tinygltf::Model& model, const std::vector<T>& values, int target, int componentType,
-                int type) {
+int addAccessor(tinygltf::Model& model, const std::vector<T>& values, int target, int componentType, int type) {
   tinygltf::Accessor accessor;
   accessor.bufferView = addView(model, values.data(), values.size(), target);
   accessor.count = values.size();
@@ -64,13 +63,10 @@ void addMeshes(tinygltf::Model& model, const Scene& scene) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = source.material;
-    primitive.attributes["POSITION"] =
-        addAccessor(model, source.positions, kVertices, kFloat, TINYGLTF_TYPE_VEC3);
+    primitive.attributes["POSITION"] = addAccessor(model, source.positions, kVertices, kFloat, TINYGLTF_TYPE_VEC3);
     addBounds(model.accessors.back(), source.positions);
-    primitive.attributes["NORMAL"] =
-        addAccessor(model, source.normals, kVertices, kFloat, TINYGLTF_TYPE_VEC3);
-    primitive.attributes["TEXCOORD_0"] =
-        addAccessor(model, source.uvs, kVertices, kFloat, TINYGLTF_TYPE_VEC2);
+    primitive.attributes["NORMAL"] = addAccessor(model, source.normals, kVertices, kFloat, TINYGLTF_TYPE_VEC3);
+    primitive.attributes["TEXCOORD_0"] = addAccessor(model, source.uvs, kVertices, kFloat, TINYGLTF_TYPE_VEC2);
     primitive.indices = addAccessor(model, source.indices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR);
     tinygltf::Mesh mesh;
@@ -81,8 +77,7 @@ void addMeshes(tinygltf::Model& model, const Scene& scene) {
 }
 
 // RGBA8 as PNG, which is lossless. OpenImageIO writes files, so it goes through one beside the scene's.
-std::string encodedPng(const Scene& scene, const glsl::TextureInfo& info,
-                       const std::filesystem::path& scenePath) {
+std::string encodedPng(const Scene& scene, const glsl::TextureInfo& info, const std::filesystem::path& scenePath) {
   Image8 image(info.width, info.height, 4);
   for (size_t i = 0; i < image.values.size(); ++i)
     image.values[i] = static_cast<uint8_t>(scene.texels[info.firstTexel + i / 4] >> (8 * (i % 4)));
@@ -174,17 +169,15 @@ void addLights(tinygltf::Model& model, const Scene& scene) {
   for (const Light& source : scene.lights) {
     tinygltf::Light light;
     light.name = source.name;
-    light.type = source.type == LightType::Point  ? "point"
-                 : source.type == LightType::Spot ? "spot"
-                                                  : "directional";
+    light.type = source.type == LightType::Point ? "point" : source.type == LightType::Spot ? "spot" : "directional";
     light.color = {source.color.x, source.color.y, source.color.z};
     light.intensity = source.intensity;
     light.spot.innerConeAngle = source.innerConeRad;
     light.spot.outerConeAngle = source.outerConeRad;
     tinygltf::Node node;
     node.name = source.name;
-    node.extensions["KHR_lights_punctual"] = tinygltf::Value(
-        tinygltf::Value::Object{{"light", tinygltf::Value(static_cast<int>(model.lights.size()))}});
+    node.extensions["KHR_lights_punctual"] =
+        tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(static_cast<int>(model.lights.size()))}});
     model.lights.push_back(std::move(light));
     addNode(model, std::move(node), lightMatrix(source));
   }

@@ -25,8 +25,7 @@ glm::vec3 unitColumn(const GltfDocument& document, const PlacedNode& placed, int
 }
 
 float finiteFloat(const GltfDocument& document, double value, const std::string& what) {
-  if (!(value >= 0.0 && value <= 1e30))
-    document.refuse(fmt::format("{} is {}", what, value), "use a number from 0 up");
+  if (!(value >= 0.0 && value <= 1e30)) document.refuse(fmt::format("{} is {}", what, value), "use a number from 0 up");
   return static_cast<float>(value);
 }
 
@@ -34,14 +33,11 @@ Light lightOf(const GltfDocument& document, const PlacedNode& placed, int index)
   const tinygltf::Model& model = document.model();
   if (index < 0 || index >= static_cast<int>(model.lights.size()))
     document.refuse(
-        fmt::format("node {}: light {} is not among the file's {}", placed.node, index, model.lights.size()),
-        kRemedy);
+        fmt::format("node {}: light {} is not among the file's {}", placed.node, index, model.lights.size()), kRemedy);
   const tinygltf::Light& source = model.lights[index];
   const std::string& nodeName = model.nodes[placed.node].name;
   Light light;
-  light.name = !nodeName.empty()      ? nodeName
-               : !source.name.empty() ? source.name
-                                      : fmt::format("light {}", index);
+  light.name = !nodeName.empty() ? nodeName : !source.name.empty() ? source.name : fmt::format("light {}", index);
   if (source.type != "point" && source.type != "spot" && source.type != "directional")
     document.refuse(fmt::format("light {} has the unknown type '{}'", index, oneLine(source.type)),
                     "use point, spot or directional");
@@ -64,9 +60,8 @@ Light lightOf(const GltfDocument& document, const PlacedNode& placed, int index)
         finiteFloat(document, source.spot.outerConeAngle, fmt::format("light {}: outerConeAngle", index));
     // A whisker above pi/2, for exporters that round up.
     if (light.outerConeRad <= 0.0f || light.outerConeRad > 1.5708f || light.innerConeRad > light.outerConeRad)
-      document.refuse(
-          fmt::format("light {} has cone angles {} and {}", index, light.innerConeRad, light.outerConeRad),
-          "use 0 <= inner < outer <= pi/2");
+      document.refuse(fmt::format("light {} has cone angles {} and {}", index, light.innerConeRad, light.outerConeRad),
+                      "use 0 <= inner < outer <= pi/2");
   }
   return light;
 }
@@ -83,8 +78,8 @@ glm::mat4 rigidMatrix(const GltfDocument& document, const PlacedNode& placed) {
   if (!(glm::length(right) > 1e-6))
     document.refuse(fmt::format("node {} is a camera without an upright", placed.node), kRemedy);
   const glm::dvec3 x = glm::normalize(right), z = glm::normalize(back);
-  return glm::mat4(glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0),
-                              placed.worldFromNode[3]));
+  return glm::mat4(
+      glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), placed.worldFromNode[3]));
 }
 
 // Nothing for an orthographic camera: Gnomon's are perspective.
@@ -100,8 +95,7 @@ std::optional<Camera> cameraOf(const GltfDocument& document, const PlacedNode& p
   if (!(yFov > 1e-4 && yFov < 3.1415))
     document.refuse(fmt::format("camera {} has yfov {}", node.camera, yFov), "use 0 < yfov < pi");
   if (!(zNear > 1e-12 && zNear < kFarthestNear))
-    document.refuse(fmt::format("camera {} has znear {}", node.camera, zNear),
-                    "use a positive distance in metres");
+    document.refuse(fmt::format("camera {} has znear {}", node.camera, zNear), "use a positive distance in metres");
   checkNear(document, glm::dvec3(placed.worldFromNode[3]), placed.node);
   camera.worldFromEye = rigidMatrix(document, placed);
   camera.yFovRad = static_cast<float>(yFov);
@@ -118,8 +112,7 @@ void loadLightsAndCameras(const GltfDocument& document, const std::vector<Placed
     if (light != node.extensions.end())
       scene.lights.push_back(lightOf(document, placed, light->second.Get("light").GetNumberAsInt()));
     if (node.camera < 0) continue;
-    if (std::optional<Camera> camera = cameraOf(document, placed))
-      scene.cameras.push_back(std::move(*camera));
+    if (std::optional<Camera> camera = cameraOf(document, placed)) scene.cameras.push_back(std::move(*camera));
   }
 }
 

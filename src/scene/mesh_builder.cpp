@@ -40,12 +40,10 @@ std::vector<uint32_t> triangulate(std::span<const glm::dvec2> polygon) {
     const size_t n = left.size();
     size_t ear = n;
     for (size_t i = 0; i < n && ear == n; ++i) {
-      const glm::dvec2 &a = polygon[left[(i + n - 1) % n]], &b = polygon[left[i]],
-                       &c = polygon[left[(i + 1) % n]];
+      const glm::dvec2 &a = polygon[left[(i + n - 1) % n]], &b = polygon[left[i]], &c = polygon[left[(i + 1) % n]];
       if (cross2(b - a, c - b) <= 0.0) continue;
       bool empty = true;
-      for (size_t k = 2; k + 1 < n && empty; ++k)
-        empty = !insideTriangle(polygon[left[(i + k) % n]], a, b, c);
+      for (size_t k = 2; k + 1 < n && empty; ++k) empty = !insideTriangle(polygon[left[(i + k) % n]], a, b, c);
       if (empty) ear = i;
     }
     GNOMON_CHECK_LT(ear, n);  // a simple counter-clockwise polygon always has an ear
@@ -138,8 +136,7 @@ void MeshBuilder::sphere(const glm::dvec3& center, double radius, int segments, 
       segments, rings, [&](int i, int j) { return center + radius * direction(i, j); }, direction);
 }
 
-void MeshBuilder::torus(const glm::dvec3& center, double ringRadius, double tubeRadius, int segments,
-                        int sides) {
+void MeshBuilder::torus(const glm::dvec3& center, double ringRadius, double tubeRadius, int segments, int sides) {
   const auto direction = [&](int i, int j) {
     const glm::dvec2 c = onCircle(i, segments);
     const glm::dvec2 s = onCircle(j, sides);

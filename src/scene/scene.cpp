@@ -83,8 +83,7 @@ glm::vec4 baseColorAt(const Scene& scene, const Material& material, glm::vec2 uv
   glm::vec4 sum(0.0f);
   for (int i = 0; i < 4; ++i) {
     const glm::vec4 texel = glsl::unpackRgba8(scene.texels[taps.texel[i]]);
-    const glm::vec4 linear(linearFromSrgb(texel.x), linearFromSrgb(texel.y), linearFromSrgb(texel.z),
-                           texel.w);
+    const glm::vec4 linear(linearFromSrgb(texel.x), linearFromSrgb(texel.y), linearFromSrgb(texel.z), texel.w);
     sum += taps.weight[i] * linear;
   }
   return material.baseColor * sum;
@@ -94,8 +93,7 @@ Camera lookAt(std::string name, glm::vec3 eyeW, glm::vec3 targetW, float yFovRad
   const glm::dvec3 back = glm::normalize(glm::dvec3(eyeW) - glm::dvec3(targetW));
   // Within about 0.06 degrees of the vertical, +y no longer says which way is up.
   const bool vertical = std::abs(back.y) > 1.0 - 5e-7;
-  const glm::dvec3 right =
-      glm::normalize(glm::cross(vertical ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0), back));
+  const glm::dvec3 right = glm::normalize(glm::cross(vertical ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0), back));
   const glm::dvec3 up = glm::cross(back, right);
   Camera camera;
   camera.name = std::move(name);

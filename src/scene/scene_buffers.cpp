@@ -103,8 +103,8 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
   buffers.positions = gpu::createBufferWith(device, "positions", positions);
   buffers.normals = gpu::createBufferWith(device, "normals", normals);
   buffers.uvs = gpu::createBufferWith(device, "uvs", uvs);
-  buffers.triangles = gpu::createBufferWith(
-      device, "triangles", indices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  buffers.triangles = gpu::createBufferWith(device, "triangles", indices,
+                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   buffers.instances = gpu::createBufferWith(device, "instances", instances);
   buffers.materials = gpu::createBufferWith(device, "materials", materials);
   buffers.textures = gpu::createBufferWith(device, "textures", scene.textures);

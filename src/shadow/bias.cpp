@@ -88,8 +88,7 @@ const std::vector<BiasMethod>& biasMethods() {
       {.id = glsl::kBiasReceiverPlane,
        .name = "receiver-plane",
        .sentence = "Carries the receiver's depth to the tap along its plane's gradient (Isidoro 2006).",
-       .knobs = {metres("offset", 1e-4f, "distance towards the light, added",
-                        &BiasParams::receiverPlaneOffset)}},
+       .knobs = {metres("offset", 1e-4f, "distance towards the light, added", &BiasParams::receiverPlaneOffset)}},
       {.id = glsl::kBiasSecondDepth,
        .name = "second-depth",
        .sentence = "Stores the back faces of solids (Wang & Molnar 1994).",
@@ -109,18 +108,17 @@ const std::vector<BiasMethod>& biasMethods() {
       {.id = glsl::kBiasAdaptive,
        .name = "adaptive",
        .sentence = "Compares where the texel's ray meets the receiver's plane (Dou et al. 2014).",
-       .knobs =
-           {{.name = "k",
-             .unit = Unit::One,
-             .lower = 0.0f,
-             .upper = 1.0f,
-             .defaultValue = 1e-4f,
-             .defaultOfSceneScale = false,
-             .sentence =
-                 "epsilon as a share of the scene's diagonal (the paper's K), for all three adaptive methods",
-             .field = &BiasParams::adaptiveK,
-             .searchLower = 1e-7f,
-             .searchUpper = 1e-1f}},
+       .knobs = {{.name = "k",
+                  .unit = Unit::One,
+                  .lower = 0.0f,
+                  .upper = 1.0f,
+                  .defaultValue = 1e-4f,
+                  .defaultOfSceneScale = false,
+                  .sentence =
+                      "epsilon as a share of the scene's diagonal (the paper's K), for all three adaptive methods",
+                  .field = &BiasParams::adaptiveK,
+                  .searchLower = 1e-7f,
+                  .searchUpper = 1e-1f}},
        .hasEpsilon = true},
       {.id = glsl::kBiasAdaptiveClamped,
        .name = "adaptive-clamped",
@@ -140,8 +138,7 @@ namespace {
 
 std::string biasNames() {
   std::string names;
-  for (const BiasMethod& method : biasMethods())
-    names += (names.empty() ? "" : ", ") + std::string(method.name);
+  for (const BiasMethod& method : biasMethods()) names += (names.empty() ? "" : ", ") + std::string(method.name);
   return names;
 }
 
@@ -186,8 +183,7 @@ BiasParams defaultBiasParams(float sceneScale) {
 int parseEpsilonAt(const std::string& name) {
   for (size_t i = 0; i < kEpsilonAtNames.size(); ++i)
     if (name == kEpsilonAtNames[i]) return static_cast<int>(i);
-  throw UsageError(
-      fmt::format("--epsilon-at {}: no such place; choose from fragment, occluder, stored", name));
+  throw UsageError(fmt::format("--epsilon-at {}: no such place; choose from fragment, occluder, stored", name));
 }
 
 const char* epsilonAtName(int epsilonAt) {

@@ -48,15 +48,15 @@ const gpu::ComputeProgram& BoundedDraws::program(const std::string& shader) {
 void BoundedDraws::record(gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& mapUniforms,
                           const std::string& shader, int layer, const Batch& batch) {
   if (triangles_.handle() == VK_NULL_HANDLE) {
-    triangles_ = gpu::Buffer(
-        device_, {.name = "bounded triangles",
-                  .size = (kBatchTriangles + glsl::kMostExtraTriangles) * sizeof(glsl::BoundedTriangle)});
-    arguments_ = gpu::Buffer(
-        device_, {.name = "bounded draw",
-                  .size = sizeof(glsl::BoundedDraw),
-                  .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
-    noArguments_ = gpu::createBufferWith(device_, "no bounded draw",
-                                         std::vector<glsl::BoundedDraw>{{.instanceCount = 1}});
+    triangles_ =
+        gpu::Buffer(device_, {.name = "bounded triangles",
+                              .size = (kBatchTriangles + glsl::kMostExtraTriangles) * sizeof(glsl::BoundedTriangle)});
+    arguments_ =
+        gpu::Buffer(device_, {.name = "bounded draw",
+                              .size = sizeof(glsl::BoundedDraw),
+                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+    noArguments_ =
+        gpu::createBufferWith(device_, "no bounded draw", std::vector<glsl::BoundedDraw>{{.instanceCount = 1}});
   }
   commands.copy(noArguments_, arguments_, sizeof(glsl::BoundedDraw));
   commands.barrier("the count is zero -> triangles are counted");

@@ -12,9 +12,7 @@ namespace gnomon {
 const std::vector<Filter>& filters() {
   static const std::vector<Filter> all = {
       {.id = glsl::kFilterNone, .name = "none", .sentence = "the one texel that holds the point"},
-      {.id = glsl::kFilterBilinear,
-       .name = "bilinear",
-       .sentence = "the 2 x 2 texels around it, weighted by distance"},
+      {.id = glsl::kFilterBilinear, .name = "bilinear", .sentence = "the 2 x 2 texels around it, weighted by distance"},
       {.id = glsl::kFilterJitter4x4,
        .name = "jitter4x4",
        .sentence = "16 jittered taps within 4 x 4 texels (Weiskopf & Ertl 2003)"},

@@ -25,8 +25,8 @@ LayerCulling::LayerCulling(const FittedMap& fitted, int first, int count) : fram
     const glm::mat4 rows = glm::transpose(fitted.map.mapLayers[layer].clipFromLight);
     Projective made{.fromLight = {rows[0], rows[1], rows[3]}, .fromWorld = {}};
     for (int i = 0; i < 3; ++i)
-      made.fromWorld[i] = frame_.rightW * made.fromLight[i].x + frame_.upW * made.fromLight[i].y +
-                          frame_.backW * made.fromLight[i].z;
+      made.fromWorld[i] =
+          frame_.rightW * made.fromLight[i].x + frame_.upW * made.fromLight[i].y + frame_.backW * made.fromLight[i].z;
     projective_.push_back(made);
   }
 }

@@ -12,8 +12,7 @@ namespace gnomon {
 
 namespace {
 
-gpu::ImageDesc layersDesc(const char* name, VkFormat format, VkImageUsageFlags usage,
-                          const glsl::ShadowMap& map) {
+gpu::ImageDesc layersDesc(const char* name, VkFormat format, VkImageUsageFlags usage, const glsl::ShadowMap& map) {
   return {.name = name,
           .format = format,
           .width = static_cast<uint32_t>(map.side),
@@ -88,8 +87,7 @@ const char* cullModeName(CullMode mode) {
 MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, MapContent content)
     : fitted_(fitted),
       uniforms_(gpu::createBufferWith(
-          device, "map uniforms",
-          std::vector<glsl::MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
+          device, "map uniforms", std::vector<glsl::MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)),
       content_(content) {
   depth_ = gpu::Image(device, layersDesc("shadow map depth", VK_FORMAT_D32_SFLOAT,
@@ -183,8 +181,7 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
       const Group group = groupOf(d);
       const int front = group == Group::Sheets ? 0 : group == Group::Solids ? 1 : -1;
       for (const LayerCulling::Range& range : culling.rangesOf(scene, d))
-        pieces.push_back(
-            {range.firstIndex / 3, range.indexCount / 3, d.instance, backFaces ? -front : front});
+        pieces.push_back({range.firstIndex / 3, range.indexCount / 3, d.instance, backFaces ? -front : front});
     }
     for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
       bounded_.record(commands, scene, layer.map.uniforms(), shaders.bounds, layer.index, batch);
@@ -226,14 +223,13 @@ bool MapRenderer::takesMultiview(const MapImage& map) const {
   return shaders.passes == LayerPasses::Multiview || (check.same && check.faster);
 }
 
-void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
-                         const LightModel& light, CullMode cull, SecondLayer method) const {
+void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
+                         CullMode cull, SecondLayer method) const {
   recordLayers(commands, scene, map, light, cull, method, takesMultiview(map));
 }
 
 void MapRenderer::recordLayers(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
-                               const LightModel& light, CullMode cull, SecondLayer method,
-                               bool multiview) const {
+                               const LightModel& light, CullMode cull, SecondLayer method, bool multiview) const {
   const bool backFaces = map.content() == MapContent::BackFaces;
   const Grouping groupOf = [&](const Draw& draw) {
     const bool culled = (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
@@ -247,9 +243,8 @@ void MapRenderer::recordLayers(gpu::Commands& commands, const SceneBuffers& scen
   };
   const bool peels = method == SecondLayer::Peel && map.content() == MapContent::TwoLayers;
   if (peels && map.peelDepth_.handle() == VK_NULL_HANDLE)
-    map.peelDepth_ =
-        gpu::Image(device_, layersDesc("peel depth", VK_FORMAT_D32_SFLOAT,
-                                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, map.fitted_.map));
+    map.peelDepth_ = gpu::Image(device_, layersDesc("peel depth", VK_FORMAT_D32_SFLOAT,
+                                                    VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, map.fitted_.map));
   const int count = multiview ? map.layerCount() : 1;
   for (int layer = 0; layer < map.layerCount(); layer += count) {
     gpu::RenderTargets first{.depth = &map.depth(), .clearDepth = 1.0f};

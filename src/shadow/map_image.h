@@ -63,8 +63,8 @@ class MapRenderer {
   // faces only, and is drawn whole. Throws WorldError where the map asks for LayerPasses::Multiview and the
   // device draws other layers so. The first map that does not ask for a pass a layer is kept waiting by the
   // check of the device.
-  void record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
-              CullMode cull, SecondLayer method = SecondLayer::Blend) const;
+  void record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light, CullMode cull,
+              SecondLayer method = SecondLayer::Blend) const;
 
  private:
   enum class Pass { First, Blend, Peel };  // kPass
@@ -92,8 +92,8 @@ class MapRenderer {
   // How a draw's triangles are culled: sheets not at all, solids by the side they show the light.
   enum class Group { Sheets, Solids, MirroredSolids };
   using Grouping = std::function<Group(const Draw&)>;
-  void recordLayers(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
-                    const LightModel& light, CullMode cull, SecondLayer method, bool multiview) const;
+  void recordLayers(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
+                    CullMode cull, SecondLayer method, bool multiview) const;
   bool takesMultiview(const MapImage& map) const;
   void recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
                      const Grouping& groupOf) const;

@@ -35,7 +35,7 @@ enum class CubeDepth {
 
 // How the triangles of a dual paraboloid are rasterized.
 enum class ParaboloidRaster {
-  Vertex,  // corners are projected, edges are drawn straight: wrong for large triangles (Brabec et al. 2002)
+  Vertex,       // corners are projected, edges are drawn straight: wrong for large triangles (Brabec et al. 2002)
   Tessellated,  // the same, of triangles cut until their edges are straight to within half a texel
   Exact,        // each texel's ray meets the triangle or does not
 };
@@ -68,8 +68,7 @@ struct MapOptions {
   CubeDepth cubeDepth = CubeDepth::Hyperbolic;
   LayerPasses cubePasses = LayerPasses::Auto;
   ParaboloidRaster paraboloidRaster = ParaboloidRaster::Exact;
-  std::optional<glm::dvec3>
-      paraboloidAxisW;  // unit; absent: the seam is turned away from what the camera sees
+  std::optional<glm::dvec3> paraboloidAxisW;  // unit; absent: the seam is turned away from what the camera sees
   VolumeSize volumeSize;
   VolumeSource volumeSource = VolumeSource::Direct;
   VolumeFit volumeFit = VolumeFit::Frustum;

@@ -54,11 +54,9 @@ MultiviewCheck checkMultiview(const gpu::Device& device, const FittedMap& fitted
     draw(scene, each, false);
     draw(scene, together, true);
     const auto depths = gpu::downloadAs<float>(device, each.depth());
-    return depths == gpu::downloadAs<float>(device, together.depth()) &&
-           !anyLayerIsEmpty(depths, each.layerCount());
+    return depths == gpu::downloadAs<float>(device, together.depth()) && !anyLayerIsEmpty(depths, each.layerCount());
   };
-  if (!drawsAlike(sphereAndFloor(device, fitted, kFewSegments, kFewRings), ofSide(fitted, kSmallSide)))
-    return {};
+  if (!drawsAlike(sphereAndFloor(device, fitted, kFewSegments, kFewRings), ofSide(fitted, kSmallSide))) return {};
   const SceneBuffers many = sphereAndFloor(device, fitted, kManySegments, kManyRings);
   if (!drawsAlike(many, fitted)) return {};
   MapImage map(device, fitted);

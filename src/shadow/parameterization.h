@@ -3,14 +3,14 @@
 // layers. Its mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in
 // shaders/shared/map.glsl, and a FittedMap carries the numbers those functions read.
 //
-// spot and directional are here, cube and paraboloid in omni/, the shadow volume in vsv/; lab/maps.h has the
+// spot and directional are here, cube and paraboloid in omni/, the shadow volume in vsv/; lab/core/maps.h has the
 // list of all.
 
+#include "scene/light_model.h"
 #include "scene/scene_buffers.h"
 #include "shadow/bias.h"
 #include "shadow/layer_shaders.h"
 #include "shadow/map_options.h"
-#include "truth/receivers.h"
 
 #include "shared/light_frame.glsl"
 #include "shared/map.glsl"

@@ -34,11 +34,9 @@ void readKnob(UserBias& bias, int line, const std::string& text) {
   BiasKnob knob{};
   words >> bias.knobName >> unit >> knob.lower >> knob.upper >> knob.defaultValue;
   if (!words || !(knob.lower <= knob.upper))
-    throw lineError(bias, line, "the knob is not understood",
-                    "write //! knob: NAME UNIT LOWER UPPER DEFAULT [scene]");
+    throw lineError(bias, line, "the knob is not understood", "write //! knob: NAME UNIT LOWER UPPER DEFAULT [scene]");
   if (words >> rest && rest != "scene")
-    throw lineError(bias, line, fmt::format("'{}' after the knob's default", rest),
-                    "write scene, or nothing");
+    throw lineError(bias, line, fmt::format("'{}' after the knob's default", rest), "write scene, or nothing");
   knob.unit = parseUnit(bias, line, unit);
   knob.defaultOfSceneScale = rest == "scene";
   knob.name = bias.knobName.c_str();

@@ -12,8 +12,7 @@ namespace {
 
 glm::uvec3 groupsFor(int width, int height) {
   const uint32_t side = glsl::kShadeGroupSide;
-  return {(static_cast<uint32_t>(width) + side - 1) / side, (static_cast<uint32_t>(height) + side - 1) / side,
-          1};
+  return {(static_cast<uint32_t>(width) + side - 1) / side, (static_cast<uint32_t>(height) + side - 1) / side, 1};
 }
 
 VkDeviceSize pixelBytes(int width, int height, size_t each) {
@@ -55,12 +54,11 @@ glsl::ShadeUniforms shadeUniforms(const glsl::CameraView& camera, const LightMod
 VisibilityPass::VisibilityPass(const gpu::Device& device, int width, int height)
     : device_(device),
       groupCount_(groupsFor(width, height)),
-      uniforms_(device, {.name = "shade uniforms",
-                         .size = sizeof(glsl::ShadeUniforms),
-                         .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
+      uniforms_(
+          device,
+          {.name = "shade uniforms", .size = sizeof(glsl::ShadeUniforms), .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
       visibility_(device, {.name = "visibility", .size = pixelBytes(width, height, sizeof(float))}),
-      diagnosis_(device,
-                 {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}) {}
+      diagnosis_(device, {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}) {}
 
 void VisibilityPass::setUniforms(const glsl::ShadeUniforms& uniforms) {
   gpu::upload(device_, uniforms_, gpu::asPush(uniforms));
@@ -69,15 +67,14 @@ void VisibilityPass::setUniforms(const glsl::ShadeUniforms& uniforms) {
 const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
   for (const auto& variant : variants_)
     if (variant->key == key) return variant->program;
-  variants_.push_back(
-      std::make_unique<Variant>(Variant{key, createProgram(device_, key.user,
-                                                           {{.id = 0, .value = key.method},
-                                                            {.id = 1, .value = key.diagnose},
-                                                            {.id = 2, .value = key.mapKind},
-                                                            {.id = 3, .value = key.layerCount},
-                                                            {.id = 4, .value = key.instanced},
-                                                            {.id = 5, .value = key.secondLayer},
-                                                            {.id = 6, .value = key.filter}})}));
+  variants_.push_back(std::make_unique<Variant>(Variant{key, createProgram(device_, key.user,
+                                                                           {{.id = 0, .value = key.method},
+                                                                            {.id = 1, .value = key.diagnose},
+                                                                            {.id = 2, .value = key.mapKind},
+                                                                            {.id = 3, .value = key.layerCount},
+                                                                            {.id = 4, .value = key.instanced},
+                                                                            {.id = 5, .value = key.secondLayer},
+                                                                            {.id = 6, .value = key.filter}})}));
   return variants_.back()->program;
 }
 
@@ -85,8 +82,8 @@ void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, 
                             const MapImage& map, const BiasMethod& method, bool diagnose, int filter) {
   GNOMON_CHECK(!diagnose || filter == glsl::kFilterNone);
   const bool twoLayers = map.content() == MapContent::TwoLayers;
-  commands.dispatch(program({method.id, diagnose ? 1 : 0, map.kind(), map.layerCount(),
-                             scene.instanced ? 1 : 0, twoLayers ? 1 : 0, filter, method.user}),
+  commands.dispatch(program({method.id, diagnose ? 1 : 0, map.kind(), map.layerCount(), scene.instanced ? 1 : 0,
+                             twoLayers ? 1 : 0, filter, method.user}),
                     groupCount_, {},
                     {{glsl::kBindPositions, scene.positions},
                      {glsl::kBindTriangles, scene.triangles},

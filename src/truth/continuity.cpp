@@ -140,8 +140,7 @@ Segment cutInWedge(const Tracer& tracer, const Fan& fan, const Probe& a, const P
 double pointToSegment(const glm::dvec2& point, const Segment& segment) {
   const glm::dvec2 along = segment.q - segment.p;
   const double lengthSquared = glm::dot(along, along);
-  const double t =
-      lengthSquared > 0.0 ? std::clamp(glm::dot(point - segment.p, along) / lengthSquared, 0.0, 1.0) : 0.0;
+  const double t = lengthSquared > 0.0 ? std::clamp(glm::dot(point - segment.p, along) / lengthSquared, 0.0, 1.0) : 0.0;
   return glm::length(point - (segment.p + along * t));
 }
 
@@ -153,8 +152,7 @@ double segmentDistance(const Segment& s, const Segment& t) {
   const bool crossS = (cross2(s.q - s.p, t.p - s.p) < 0.0) != (cross2(s.q - s.p, t.q - s.p) < 0.0);
   const bool crossT = (cross2(t.q - t.p, s.p - t.p) < 0.0) != (cross2(t.q - t.p, s.q - t.p) < 0.0);
   if (crossS && crossT) return 0.0;
-  return std::min(
-      {pointToSegment(s.p, t), pointToSegment(s.q, t), pointToSegment(t.p, s), pointToSegment(t.q, s)});
+  return std::min({pointToSegment(s.p, t), pointToSegment(s.q, t), pointToSegment(t.p, s), pointToSegment(t.q, s)});
 }
 
 // Metres along the ray per metre across it, on the hit's plane.
@@ -220,8 +218,8 @@ class Bisection {
 
   Stretch popLargest() {
     const auto end = stretches_.begin() + static_cast<std::ptrdiff_t>(count_);
-    const auto largest = std::max_element(stretches_.begin(), end,
-                                          [](const Stretch& s, const Stretch& t) { return s.jump < t.jump; });
+    const auto largest =
+        std::max_element(stretches_.begin(), end, [](const Stretch& s, const Stretch& t) { return s.jump < t.jump; });
     Stretch popped = *largest;
     *largest = stretches_[--count_];
     return popped;

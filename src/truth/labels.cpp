@@ -10,16 +10,15 @@ namespace {
 
 bool liesBefore(const Probe& texel, const SurfaceSample& receiver, double receiverDistance, double margin) {
   if (!texel.hit) return false;
-  if (glm::dot(receiver.normalW, texel.ray.dir) >= 0.0)
-    return texel.hit->distance < receiverDistance - margin;
+  if (glm::dot(receiver.normalW, texel.ray.dir) >= 0.0) return texel.hit->distance < receiverDistance - margin;
   return glm::dot(receiver.normalW, texel.positionW() - receiver.positionW) > margin;
 }
 
 // Of a pixel where prediction and truth differ. The pixel's own ray is not traced: what it hits first, where
 // there is light, is the pixel's own triangle, and a ray that ends on an edge would say so only half of the
 // time.
-Label labelWrong(const Tracer& tracer, const LightRays& rays, const SurfaceSample& receiver, bool lit,
-                 double margin, const RayD& texelRay) {
+Label labelWrong(const Tracer& tracer, const LightRays& rays, const SurfaceSample& receiver, bool lit, double margin,
+                 const RayD& texelRay) {
   const LightRay own = rays.towards(receiver.positionW);
   const Probe texel = probeAlong(tracer, rays.normalized(texelRay));
   if (!lit) return liesBefore(texel, receiver, own.distance, margin) ? Label::Leak : Label::EdgeLight;
@@ -49,9 +48,8 @@ const char* labelName(Label label) {
   detail::checkFailed(__FILE__, __LINE__, "label", fmt::format("{}", static_cast<int>(label)));
 }
 
-LabelImage labelPixels(const Tracer& tracer, const LightModel& light, const Receivers& receivers,
-                       const Truth& truth, std::span<const Verdict> verdicts,
-                       const std::function<RayD(size_t pixel)>& texelRay) {
+LabelImage labelPixels(const Tracer& tracer, const LightModel& light, const Receivers& receivers, const Truth& truth,
+                       std::span<const Verdict> verdicts, const std::function<RayD(size_t pixel)>& texelRay) {
   const size_t pixelCount = receivers.states.size();
   GNOMON_CHECK_EQ(verdicts.size(), pixelCount);
   GNOMON_CHECK_EQ(truth.lit.size(), pixelCount);

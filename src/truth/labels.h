@@ -39,8 +39,7 @@ struct LabelImage {
 
 // `texelRay(pixel)`: the light ray through the centre of the texel that decided the pixel, in W. Asked for
 // wrong pixels only, from many threads at once. Every scored pixel needs a verdict other than NotAsked.
-LabelImage labelPixels(const Tracer& tracer, const LightModel& light, const Receivers& receivers,
-                       const Truth& truth, std::span<const Verdict> verdicts,
-                       const std::function<RayD(size_t pixel)>& texelRay);
+LabelImage labelPixels(const Tracer& tracer, const LightModel& light, const Receivers& receivers, const Truth& truth,
+                       std::span<const Verdict> verdicts, const std::function<RayD(size_t pixel)>& texelRay);
 
 }  // namespace gnomon

@@ -51,9 +51,7 @@ uint32_t hashWord(uint32_t word) {
 
 // In [0, 1).
 double jitter(uint32_t pixel, size_t strata, size_t stratum) {
-  return hashWord(hashWord(hashWord(pixel) + static_cast<uint32_t>(strata)) +
-                  static_cast<uint32_t>(stratum)) *
-         0x1p-32;
+  return hashWord(hashWord(hashWord(pixel) + static_cast<uint32_t>(strata)) + static_cast<uint32_t>(stratum)) * 0x1p-32;
 }
 
 struct VisibilitySample {
@@ -77,8 +75,7 @@ struct Task {
   const glsl::CameraView& camera;
   std::span<const double> ends;
   const MediumModel& medium;
-  double tolerance =
-      std::numeric_limits<double>::infinity();  // cd/m^2, of an edge and of a piece's quadrature
+  double tolerance = std::numeric_limits<double>::infinity();  // cd/m^2, of an edge and of a piece's quadrature
 };
 
 class Tile {
@@ -90,8 +87,7 @@ class Tile {
         pixels_.push_back(static_cast<uint32_t>(y * width + x));
     for (const MediaLight& light : task.lights) {
       for (const uint32_t pixel : pixels_) {
-        const RayD view =
-            pixelRay(task.camera, static_cast<int>(pixel) % width, static_cast<int>(pixel) / width);
+        const RayD view = pixelRay(task.camera, static_cast<int>(pixel) % width, static_cast<int>(pixel) / width);
         ScatteringRay ray = scatteringRay(view, task.ends[pixel], light, task.medium);
         if (ray.sFrom < ray.sTo) rays_.push_back({.pixel = pixel, .ray = ray});
       }
@@ -106,8 +102,7 @@ class Tile {
     for (SampledRay& ray : rays_) {
       std::vector<double> fresh = {0.0};
       for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-        ray.strata.push_back((static_cast<double>(i) + jitter(ray.pixel, static_cast<size_t>(count), i)) /
-                             count);
+        ray.strata.push_back((static_cast<double>(i) + jitter(ray.pixel, static_cast<size_t>(count), i)) / count);
         fresh.push_back(std::min(ray.strata.back(), 1.0 - kShortOfEnd));
       }
       fresh.push_back(1.0 - kShortOfEnd);
@@ -127,8 +122,7 @@ class Tile {
             ray.strata[i] * static_cast<double>(count) < static_cast<double>(2 * i + 1) ? 2 * i : 2 * i + 1;
         const size_t other = old ^ 1;
         halves[old] = ray.strata[i];
-        halves[other] =
-            (static_cast<double>(other) + jitter(ray.pixel, count, other)) / static_cast<double>(count);
+        halves[other] = (static_cast<double>(other) + jitter(ray.pixel, count, other)) / static_cast<double>(count);
         fresh.push_back(std::min(halves[other], 1.0 - kShortOfEnd));
       }
       ray.strata = std::move(halves);
@@ -140,8 +134,7 @@ class Tile {
   // The steps through a density, halved that often.
   void setSteps(int halvings) {
     if (task_.medium.density == nullptr) return;
-    const double step =
-        kFirstStepVoxels * task_.medium.density->voxelMetres() / static_cast<double>(1 << halvings);
+    const double step = kFirstStepVoxels * task_.medium.density->voxelMetres() / static_cast<double>(1 << halvings);
     for (SampledRay& ray : rays_) ray.profile.emplace(ray.ray, task_.medium, step, kFirstCells << halvings);
   }
 
@@ -156,8 +149,7 @@ class Tile {
   }
 
  private:
-  void look(const MediaLight& light, std::span<const glm::dvec3> pointsW,
-            std::span<VisibilitySample> samples) {
+  void look(const MediaLight& light, std::span<const glm::dvec3> pointsW, std::span<VisibilitySample> samples) {
     blocked_.assign(pointsW.size(), 1);
     if (light.cosCone > -1.0) {
       lookWithinCone(light, pointsW);
@@ -229,9 +221,8 @@ class Tile {
   std::vector<Edge> findEdges() {
     std::vector<Edge> edges;
     for (SampledRay& ray : rays_) {
-      const double enough = std::isfinite(task_.tolerance)
-                                ? task_.tolerance / largestShare(ray.ray, task_.medium)
-                                : kEdgeForMean * (ray.ray.phiTo - ray.ray.phiFrom);
+      const double enough = std::isfinite(task_.tolerance) ? task_.tolerance / largestShare(ray.ray, task_.medium)
+                                                           : kEdgeForMean * (ray.ray.phiTo - ray.ray.phiFrom);
       for (size_t i = 0; i + 1 < ray.samples.size(); ++i) {
         const Edge edge{&ray, ray.samples[i], ray.samples[i + 1], enough};
         if (edge.before.lit != edge.after.lit && edge.open()) edges.push_back(edge);
@@ -352,8 +343,7 @@ double meanOf(const std::vector<glm::dvec3>& radiance) {
 // Rows of tiles one after another, their tiles on all cores.
 template <typename Work>
 void forTiles(const glsl::CameraView& camera, const char* what, const Work& work) {
-  const int rows = (camera.height + kTileSide - 1) / kTileSide,
-            columns = (camera.width + kTileSide - 1) / kTileSide;
+  const int rows = (camera.height + kTileSide - 1) / kTileSide, columns = (camera.width + kTileSide - 1) / kTileSide;
   Progress progress("media reference", rows);
   for (int row = 0; row < rows; ++row) {
     progress.step(what);

@@ -17,8 +17,7 @@ namespace gnomon {
 class DensityField {
  public:
   virtual ~DensityField() = default;
-  virtual double at(
-      const glm::dvec3& posW) const = 0;  // a factor of sigmaS and sigmaA; >= 0; 0 outside of bounds
+  virtual double at(const glm::dvec3& posW) const = 0;  // a factor of sigmaS and sigmaA; >= 0; 0 outside of bounds
   virtual Bounds boundsW() const = 0;
   virtual double voxelMetres() const = 0;  // the finest detail there is
 };
@@ -44,14 +43,13 @@ struct MediaReferenceOptions {
 };
 
 struct MediaReference {
-  ImageF inScattered;  // rgb, cd/m^2
-  double mean = 0.0;   // over pixels and channels
-  double bound = 0.0;  // as asked for
-  double worstChange =
-      0.0;             // what the last doubling (or halving of steps) changed any channel by, of the mean
-  size_t atLimit = 0;  // pixels that the last doubling allowed changed by more than the bound
-  int doublings = 0;   // the most of any pixel
-  uint64_t rays = 0;   // towards lights
+  ImageF inScattered;        // rgb, cd/m^2
+  double mean = 0.0;         // over pixels and channels
+  double bound = 0.0;        // as asked for
+  double worstChange = 0.0;  // what the last doubling (or halving of steps) changed any channel by, of the mean
+  size_t atLimit = 0;        // pixels that the last doubling allowed changed by more than the bound
+  int doublings = 0;         // the most of any pixel
+  uint64_t rays = 0;         // towards lights
   double ms = 0.0;
 };
 

@@ -20,13 +20,11 @@ double sideOfLight(const LightModel& light, const glm::dvec3& pointW, const glm:
   return glm::dot(normalW, light.positionW - pointW);
 }
 
-PixelState classify(const LightModel& light, const glm::dvec3& eyeW, const glm::dvec3& cornerW,
-                    SurfaceSample& sample) {
+PixelState classify(const LightModel& light, const glm::dvec3& eyeW, const glm::dvec3& cornerW, SurfaceSample& sample) {
   const double eyeSide = glm::dot(sample.normalW, eyeW - cornerW);
   const double lightSide = sideOfLight(light, cornerW, sample.normalW);
   if (lightSide < 0.0) sample.normalW = -sample.normalW;
-  if (eyeSide == 0.0 || lightSide == 0.0 || (eyeSide > 0.0) != (lightSide > 0.0))
-    return PixelState::FacingAway;
+  if (eyeSide == 0.0 || lightSide == 0.0 || (eyeSide > 0.0) != (lightSide > 0.0)) return PixelState::FacingAway;
   if (light.type == LightType::Spot) {
     const glm::dvec3 toPoint = sample.positionW - light.positionW;
     const double cosine = glm::dot(glm::normalize(toPoint), light.directionW);
@@ -40,8 +38,7 @@ PixelState classify(const LightModel& light, const glm::dvec3& eyeW, const glm::
 RayD pixelRay(const glsl::CameraView& camera, int x, int y) {
   const double sx = (2.0 * (x + 0.5) / camera.width - 1.0) * static_cast<double>(camera.tanHalfX);
   const double sy = (1.0 - 2.0 * (y + 0.5) / camera.height) * static_cast<double>(camera.tanHalfY);
-  const glm::dvec3 dir =
-      glm::dvec3(camera.forwardW) + glm::dvec3(camera.rightW) * sx + glm::dvec3(camera.upW) * sy;
+  const glm::dvec3 dir = glm::dvec3(camera.forwardW) + glm::dvec3(camera.rightW) * sx + glm::dvec3(camera.upW) * sy;
   return {glm::dvec3(camera.eyeW), glm::normalize(dir)};
 }
 
@@ -54,8 +51,7 @@ Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera,
   receivers.samples.resize(pixelCount);
   tbb::parallel_for(0, camera.height, [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
-      const size_t pixel =
-          static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x);
+      const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x);
       if (ids[pixel].instancePlusOne == 0) continue;
       SurfaceSample& sample = receivers.samples[pixel];
       sample.primitive = {ids[pixel].instancePlusOne - 1, ids[pixel].triangle};

@@ -2,6 +2,7 @@
 // What each pixel sees, in double precision: the point on the primitive that the G-buffer names, along the
 // pixel's ray, and whether a light scores it.
 
+#include "scene/light_model.h"
 #include "scene/scene.h"
 #include "truth/tracer.h"
 
@@ -11,14 +12,6 @@
 #include <vector>
 
 namespace gnomon {
-
-// A light as truth and maps share it. A directional light's rays all run along directionW.
-struct LightModel {
-  LightType type = LightType::Point;
-  glm::dvec3 positionW{0.0};        // point, spot
-  glm::dvec3 directionW{0, -1, 0};  // unit; spot: the axis
-  double outerConeRad = 0.0;        // spot: half angle; pixels outside are dark and not scored
-};
 
 enum class PixelState : uint8_t {
   Empty,        // no surface

@@ -24,14 +24,12 @@ constexpr std::array kKronrodAt = {0.991455371120812639206854697526329, 0.949107
                                    0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
                                    0.586087235467691130294144691693170, 0.405845151377397166906606412076961,
                                    0.207784955007898467600689403773245, 0.0};
-constexpr std::array kKronrodWeight = {
-    0.022935322010529224963732008058970, 0.063092092629978553290700663189204,
-    0.104790010322250183839876322541518, 0.140653259715525918745189590510238,
-    0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
-    0.204432940075298892414161999234649, 0.209482141084727828012999174891714};
+constexpr std::array kKronrodWeight = {0.022935322010529224963732008058970, 0.063092092629978553290700663189204,
+                                       0.104790010322250183839876322541518, 0.140653259715525918745189590510238,
+                                       0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
+                                       0.204432940075298892414161999234649, 0.209482141084727828012999174891714};
 constexpr std::array kGaussWeight = {0.129484966168869693270611432679082, 0.279705391489276667901467771423780,
-                                     0.381830050505118944950369775488975,
-                                     0.417959183673469387755102040816327};
+                                     0.381830050505118944950369775488975, 0.417959183673469387755102040816327};
 
 constexpr int kMostHalvings = 30;  // of a piece's quadrature: to 1e-9 of it
 
@@ -69,8 +67,7 @@ class Quadrature {
     const Estimate whole = rule(from, to);
     if (halvings == 0 || !(glm::compMax(whole.error) > tolerance)) return whole.value;
     const double middle = 0.5 * (from + to);
-    return over(from, middle, 0.5 * tolerance, halvings - 1) +
-           over(middle, to, 0.5 * tolerance, halvings - 1);
+    return over(from, middle, 0.5 * tolerance, halvings - 1) + over(middle, to, 0.5 * tolerance, halvings - 1);
   }
 
  private:
@@ -161,8 +158,7 @@ double ScatteringRay::sAt(double phi) const {
   return eyeDistance * eyeDistance * sine / (aside * std::cos(phi) + ahead * sine);
 }
 
-ScatteringRay scatteringRay(const RayD& view, double end, const MediaLight& light,
-                            const MediumModel& medium) {
+ScatteringRay scatteringRay(const RayD& view, double end, const MediaLight& light, const MediumModel& medium) {
   const glm::dvec3 toLight = light.positionW - view.origin;
   ScatteringRay ray{.view = view, .light = light, .eyeDistance = glm::length(toLight)};
   GNOMON_CHECK_LT(0.0, ray.eyeDistance);
@@ -170,8 +166,7 @@ ScatteringRay scatteringRay(const RayD& view, double end, const MediaLight& ligh
   ray.aside = std::max(glm::length(glm::cross(toLight, view.dir)), kLeastAside * ray.eyeDistance);
   // `ahead` and `aside` make up D to the last bit: sAt leans on it near the light.
   ray.eyeDistance = std::hypot(ray.ahead, ray.aside);
-  const Stretch cut =
-      medium.density != nullptr ? cutToBounds(view, end, medium.density->boundsW()) : Stretch{0.0, end};
+  const Stretch cut = medium.density != nullptr ? cutToBounds(view, end, medium.density->boundsW()) : Stretch{0.0, end};
   ray.sFrom = cut.from;
   ray.sTo = cut.to;
   ray.phiFrom = ray.phiAt(cut.from);
@@ -199,24 +194,21 @@ std::vector<double> coneCrossings(const ScatteringRay& ray) {
 }
 
 double largestShare(const ScatteringRay& ray, const MediumModel& medium) {
-  return glm::compMax(medium.sigmaS * ray.light.intensity) * phaseFunction(std::abs(medium.g), 1.0) /
-         ray.aside;
+  return glm::compMax(medium.sigmaS * ray.light.intensity) * phaseFunction(std::abs(medium.g), 1.0) / ray.aside;
 }
 
-glm::dvec3 scatterHomogeneous(const ScatteringRay& ray, std::span<const LitPiece> pieces,
-                              const MediumModel& medium, double tolerance) {
+glm::dvec3 scatterHomogeneous(const ScatteringRay& ray, std::span<const LitPiece> pieces, const MediumModel& medium,
+                              double tolerance) {
   const glm::dvec3 scale = medium.sigmaS * ray.light.intensity / ray.aside;
   const double largest = glm::compMax(scale);
   if (!(largest > 0.0)) return glm::dvec3(0.0);
   const Quadrature quadrature(ray, medium);
   glm::dvec3 sum(0.0);
-  for (const LitPiece& piece : pieces)
-    sum += quadrature.over(piece.from, piece.to, tolerance / largest, kMostHalvings);
+  for (const LitPiece& piece : pieces) sum += quadrature.over(piece.from, piece.to, tolerance / largest, kMostHalvings);
   return sum * scale;
 }
 
-double densityBetween(const DensityField& density, const glm::dvec3& fromW, const glm::dvec3& toW,
-                      double step) {
+double densityBetween(const DensityField& density, const glm::dvec3& fromW, const glm::dvec3& toW, double step) {
   const double length = glm::length(toW - fromW);
   if (!(length > 0.0)) return 0.0;
   const RayD ray{fromW, (toW - fromW) / length};
@@ -239,16 +231,15 @@ DensityProfile::DensityProfile(const ScatteringRay& ray, const MediumModel& medi
   }
 }
 
-const glm::dvec3& DensityProfile::valueAt(Node& node, const ScatteringRay& ray,
-                                          const MediumModel& medium) const {
+const glm::dvec3& DensityProfile::valueAt(Node& node, const ScatteringRay& ray, const MediumModel& medium) const {
   if (node.known) return node.value;
   node.known = true;
   if (!(node.density > 0.0)) return node.value;
   const Place place = placeAt(ray, medium.g, node.phi);
   const double towardsLight =
       densityBetween(*medium.density, ray.light.positionW, ray.view.origin + ray.view.dir * node.s, step_);
-  node.value = transmittance(medium.sigmaS + medium.sigmaA, node.towardsEye + towardsLight) *
-               (node.density * place.phase);
+  node.value =
+      transmittance(medium.sigmaS + medium.sigmaA, node.towardsEye + towardsLight) * (node.density * place.phase);
   return node.value;
 }
 

@@ -42,8 +42,8 @@ struct LitPiece {
 
 // Of a homogeneous medium, cd/m^2: adaptive quadrature, each piece to within `tolerance` (infinity: one rule
 // a piece).
-glm::dvec3 scatterHomogeneous(const ScatteringRay& ray, std::span<const LitPiece> pieces,
-                              const MediumModel& medium, double tolerance);
+glm::dvec3 scatterHomogeneous(const ScatteringRay& ray, std::span<const LitPiece> pieces, const MediumModel& medium,
+                              double tolerance);
 
 // What scatters along a ray through a density, at nodes: between two of them it is taken for linear in phi. A
 // node is worked out when light first reaches it, so that other pieces of the same ray cost next to nothing.
@@ -74,8 +74,7 @@ double largestShare(const ScatteringRay& ray, const MediumModel& medium);
 
 // Optical depth at density 1 per metre: the integral of the density between two points, in steps of `step`
 // metres.
-double densityBetween(const DensityField& density, const glm::dvec3& fromW, const glm::dvec3& toW,
-                      double step);
+double densityBetween(const DensityField& density, const glm::dvec3& fromW, const glm::dvec3& toW, double step);
 
 // Henyey and Greenstein, "Diffuse Radiation in the Galaxy", Astrophysical Journal 93 (1941), equation 2;
 // 1/sr.

@@ -54,8 +54,7 @@ bool isInvertible(const glm::dmat4& worldFromMesh) {
 
 Primitive hitPrimitive(RTCHitN* hit, unsigned n, unsigned i) {
   const unsigned instance = RTCHitN_instID(hit, n, i, 0);
-  return {instance == RTC_INVALID_GEOMETRY_ID ? RTCHitN_geomID(hit, n, i) : instance,
-          RTCHitN_primID(hit, n, i)};
+  return {instance == RTC_INVALID_GEOMETRY_ID ? RTCHitN_geomID(hit, n, i) : instance, RTCHitN_primID(hit, n, i)};
 }
 
 // Where a float hit (u, v) lies in double. An edge-on triangle has no meeting point: Embree's stands in.
@@ -153,8 +152,7 @@ void Tracer::Impl::judgeBeforePoint(const Query& query, const RTCFilterFunctionN
     if (args->valid[i] == 0) continue;
     const Primitive primitive = hitPrimitive(args->hit, args->N, i);
     const Mesh& mesh = *query.impl->meshes[primitive.instance];
-    const bool opaque =
-        query.impl->scene.materials[static_cast<size_t>(mesh.material)].alphaMode != AlphaMode::Mask;
+    const bool opaque = query.impl->scene.materials[static_cast<size_t>(mesh.material)].alphaMode != AlphaMode::Mask;
     if (opaque && RTCRayN_tfar(args->ray, args->N, i) < kSurelyBefore) continue;
     const unsigned id = RTCRayN_id(args->ray, args->N, i);
     const RayD ray{query.lightW, (query.pointsW[id] - query.lightW) / query.distances[id]};
@@ -162,8 +160,7 @@ void Tracer::Impl::judgeBeforePoint(const Query& query, const RTCFilterFunctionN
     query.impl->corners(primitive, at);
     const TriangleMeeting meeting =
         meetHit(ray, at, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
-    if (!(meeting.distance < query.distances[id]) || query.impl->isHole(primitive, meeting.weights))
-      args->valid[i] = 0;
+    if (!(meeting.distance < query.distances[id]) || query.impl->isHole(primitive, meeting.weights)) args->valid[i] = 0;
   }
 }
 
@@ -171,11 +168,11 @@ void Tracer::Impl::throwIfFailed() const {
   const RTCError error = rtcGetDeviceError(device.get());
   if (error == RTC_ERROR_NONE) return;
   if (error == RTC_ERROR_OUT_OF_MEMORY) {
-    throw WorldError(fmt::format("{}: not enough memory to trace {} triangles; use a smaller scene",
-                                 scene.name, triangleCount(scene)));
+    throw WorldError(fmt::format("{}: not enough memory to trace {} triangles; use a smaller scene", scene.name,
+                                 triangleCount(scene)));
   }
-  throw WorldError(fmt::format("{}: Embree failed with error {}; check the installation of libembree3",
-                               scene.name, static_cast<int>(error)));
+  throw WorldError(fmt::format("{}: Embree failed with error {}; check the installation of libembree3", scene.name,
+                               static_cast<int>(error)));
 }
 
 OwnedScene Tracer::Impl::newScene() const {
@@ -185,8 +182,7 @@ OwnedScene Tracer::Impl::newScene() const {
   return made;
 }
 
-void Tracer::Impl::attachMesh(RTCScene into, const Mesh& mesh, const InstanceFrame& frame,
-                              unsigned id) const {
+void Tracer::Impl::attachMesh(RTCScene into, const Mesh& mesh, const InstanceFrame& frame, unsigned id) const {
   if (mesh.indices.size() < 3) return;
   const uint32_t largest = *std::max_element(mesh.indices.begin(), mesh.indices.end());
   GNOMON_CHECK_LT(static_cast<size_t>(largest), mesh.positions.size());
@@ -273,8 +269,7 @@ RTCRay Tracer::Impl::floatRay(const RayD& ray, double distance, const glm::dvec3
 
 void Tracer::Impl::traceOne(const ShadowSegment& segment, double enough, double& height) const {
   const glm::dvec3 receiver = segment.ray.origin + segment.ray.dir * segment.distance;
-  Query query{
-      .impl = this, .segments = &segment, .receivers = &receiver, .heights = &height, .enough = enough};
+  Query query{.impl = this, .segments = &segment, .receivers = &receiver, .heights = &height, .enough = enough};
   rtcInitIntersectContext(&query.rtc);
   RTCRay ray = floatRay(segment.ray, segment.distance, receiver, 0);
   rtcOccluded1(top.get(), &query.rtc, &ray);
@@ -298,14 +293,9 @@ void putRay(const RTCRay& ray, RTCRay16& rays, unsigned i) {
 
 // Not flagged as coherent: with instances in the scene Embree 3.13.5's coherent packet path was seen not to
 // return.
-void Tracer::Impl::tracePacket(std::span<const ShadowSegment> segments, double enough,
-                               double* heights) const {
+void Tracer::Impl::tracePacket(std::span<const ShadowSegment> segments, double enough, double* heights) const {
   glm::dvec3 receivers[kPacket];
-  Query query{.impl = this,
-              .segments = segments.data(),
-              .receivers = receivers,
-              .heights = heights,
-              .enough = enough};
+  Query query{.impl = this, .segments = segments.data(), .receivers = receivers, .heights = heights, .enough = enough};
   rtcInitIntersectContext(&query.rtc);
   alignas(64) int valid[kPacket] = {};
   RTCRay16 rays = {};
@@ -317,8 +307,7 @@ void Tracer::Impl::tracePacket(std::span<const ShadowSegment> segments, double e
   rtcOccluded16(valid, top.get(), &query.rtc, &rays);
 }
 
-void Tracer::Impl::tracePoints(const glm::dvec3& lightW, std::span<const glm::dvec3> pointsW,
-                               uint8_t* blocked) const {
+void Tracer::Impl::tracePoints(const glm::dvec3& lightW, std::span<const glm::dvec3> pointsW, uint8_t* blocked) const {
   double distances[kPacket];
   Query query{.impl = this, .distances = distances, .pointsW = pointsW.data(), .lightW = lightW};
   rtcInitIntersectContext(&query.rtc);
@@ -419,8 +408,7 @@ bool Tracer::occluded(const RayD& ray, double distance, const Primitive& own, co
   return height > margin;
 }
 
-void Tracer::blockerHeights(std::span<const ShadowSegment> segments, double enough,
-                            std::span<double> heights) const {
+void Tracer::blockerHeights(std::span<const ShadowSegment> segments, double enough, std::span<double> heights) const {
   GNOMON_CHECK_EQ(segments.size(), heights.size());
   std::fill(heights.begin(), heights.end(), -std::numeric_limits<double>::infinity());
   for (size_t i = 0; i < segments.size(); i += kPacket) {

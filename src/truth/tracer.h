@@ -70,13 +70,11 @@ class Tracer {
   // reported; -infinity where there is none. occluded() at a margin is: height > margin. Traced in packets of
   // kPacket: neighbours should be alike.
   static constexpr size_t kPacket = 16;
-  void blockerHeights(std::span<const ShadowSegment> segments, double enough,
-                      std::span<double> heights) const;
+  void blockerHeights(std::span<const ShadowSegment> segments, double enough, std::span<double> heights) const;
 
   // Whether a surface stands between a light and points in mid-air: one that a segment meets before its end,
   // as double has it. Writes 1 where one does. Traced in packets of kPacket: neighbours should be alike.
-  void blockPoints(const glm::dvec3& lightW, std::span<const glm::dvec3> pointsW,
-                   std::span<uint8_t> blocked) const;
+  void blockPoints(const glm::dvec3& lightW, std::span<const glm::dvec3> pointsW, std::span<uint8_t> blocked) const;
 
   // World positions of a triangle's corners in double, from the very floats the shaders read.
   void corners(const Primitive& primitive, glm::dvec3 out[3]) const;

@@ -13,7 +13,7 @@ struct TriangleMeeting {
   glm::dvec3 positionW{0.0};
   glm::dvec3 weights{1.0, 0.0, 0.0};  // of the three corners
   double distance = 0.0;              // metres along the ray to positionW
-  bool edgeOn = false;  // the ray runs in the triangle's plane (or it has no area): nothing above holds
+  bool edgeOn = false;                // the ray runs in the triangle's plane (or it has no area): nothing above holds
 };
 TriangleMeeting meetTriangle(const RayD& ray, const glm::dvec3 corners[3]);
 

@@ -27,8 +27,7 @@ void traceTile(const Tracer& tracer, const LightRays& rays, const Receivers& rec
   size_t count = 0;
   for (int y = tileY; y < std::min(tileY + kTileSide, receivers.height); ++y) {
     for (int x = tileX; x < std::min(tileX + kTileSide, receivers.width); ++x) {
-      const size_t pixel =
-          static_cast<size_t>(y) * static_cast<size_t>(receivers.width) + static_cast<size_t>(x);
+      const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(receivers.width) + static_cast<size_t>(x);
       if (receivers.states[pixel] != PixelState::Scored) continue;
       const SurfaceSample& sample = receivers.samples[pixel];
       const LightRay towards = rays.towards(sample.positionW);

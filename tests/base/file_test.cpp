@@ -50,12 +50,10 @@ TEST_F(FileTest, WhatCannotBeReadOrWrittenIsNamed) {
     }
     return std::string();
   };
-  EXPECT_NE(messageOf([&] { readFile(folder_ / "absent"); }).find("absent: cannot be read"),
-            std::string::npos);
+  EXPECT_NE(messageOf([&] { readFile(folder_ / "absent"); }).find("absent: cannot be read"), std::string::npos);
   EXPECT_NE(messageOf([&] { readFile(folder_); }).find("is a folder"), std::string::npos);
   writeTextFile(folder_ / "file", "");
-  EXPECT_NE(messageOf([&] { writeTextFile(folder_ / "file" / "below", ""); }).find("file: cannot"),
-            std::string::npos);
+  EXPECT_NE(messageOf([&] { writeTextFile(folder_ / "file" / "below", ""); }).find("file: cannot"), std::string::npos);
 }
 
 }  // namespace

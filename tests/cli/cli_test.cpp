@@ -27,9 +27,8 @@ class CliTest : public ::testing::Test {
   Result run(std::string arguments) const {
     for (size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@'))
       arguments.replace(at, 1, folder_.string());
-    const std::string command = std::string(GNOMON_PROGRAM) + " " + arguments + " >" +
-                                (folder_ / "stdout").string() + " 2>" + (folder_ / "stderr").string() +
-                                " </dev/null";
+    const std::string command = std::string(GNOMON_PROGRAM) + " " + arguments + " >" + (folder_ / "stdout").string() +
+                                " 2>" + (folder_ / "stderr").string() + " </dev/null";
     const int status = std::system(command.c_str());
     Result result{.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
                   .out = readFile(folder_ / "stdout"),
@@ -70,8 +69,7 @@ TEST_F(CliTest, CompareWritesATableResultsAndPicturesAndNoMessageOfValidation) {
 }
 
 TEST_F(CliTest, CompareLeavesAPageAndReportMakesTheSameOneAgain) {
-  const Result compared =
-      run("compare corner --biases none,adaptive --size 32 --map-size 32 --repeats 1 -o @/out");
+  const Result compared = run("compare corner --biases none,adaptive --size 32 --map-size 32 --repeats 1 -o @/out");
   ASSERT_EQ(compared.exitCode, 0) << compared.err;
   EXPECT_NE(compared.out.find("out/report.html"), std::string::npos) << compared.out;
   const Result reported = run("report @/out -o @/page.html");
@@ -99,8 +97,7 @@ TEST_F(CliTest, AReportOfNothingOrOfGarbageIsRefusedInOneLine) {
 
 TEST_F(CliTest, FogWritesATableResultsPicturesAndAPage) {
   const std::string small = " --size 48 --vsv-size 128x128x128 --map-size 128 --repeats 1 ";
-  const Result result =
-      run("fog grate --truth --bound 0.01 --no-cache --steps 8,32 -o @/out --json @/r.json" + small);
+  const Result result = run("fog grate --truth --bound 0.01 --no-cache --steps 8,32 -o @/out --json @/r.json" + small);
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_NE(result.out.find("march 32"), std::string::npos) << result.out;
@@ -119,11 +116,9 @@ TEST_F(CliTest, FogWritesATableResultsPicturesAndAPage) {
   expectMistake("report @/out -o @/b.html", 1, "media[1].integrate_ms is missing");
 
   ASSERT_EQ(run("fog grate -o @/a.exr" + small).exitCode, 0);
-  ASSERT_EQ(
-      run("fog grate -o @/a.png --truth --bound 0.1 --integrators march --steps 8 --march-map paraboloid" +
-          small)
-          .exitCode,
-      0);
+  ASSERT_EQ(run("fog grate -o @/a.png --truth --bound 0.1 --integrators march --steps 8 --march-map paraboloid" + small)
+                .exitCode,
+            0);
   EXPECT_TRUE(fs::exists(folder_ / "a.exr") && fs::exists(folder_ / "a.png") &&
               fs::exists(folder_ / "a.reference.png"));
 }
@@ -165,8 +160,8 @@ TEST_F(CliTest, EveryBiasKnobIsAFlag) {
 }
 
 TEST_F(CliTest, AShadowVolumeLeavesOutWhatMeansNothingOnItAndSaysSo) {
-  const Result result = run(
-      "compare contact --maps vsv --biases none,slope,adaptive --vsv-size 64x64x128 --size 32 --repeats 1");
+  const Result result =
+      run("compare contact --maps vsv --biases none,slope,adaptive --vsv-size 64x64x128 --size 32 --repeats 1");
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_NE(result.err.find("leaves out slope"), std::string::npos) << result.err;
   EXPECT_NE(result.out.find("vsv 64x64x128"), std::string::npos) << result.out;
@@ -176,8 +171,7 @@ TEST_F(CliTest, AShadowVolumeLeavesOutWhatMeansNothingOnItAndSaysSo) {
 }
 
 TEST_F(CliTest, MapTexelsPicksTheSide) {
-  const Result result =
-      run("compare corner --biases none --map-texels 10000 --size 32 --repeats 1 --json @/r.json");
+  const Result result = run("compare corner --biases none --map-texels 10000 --size 32 --repeats 1 --json @/r.json");
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows")[0].at("map_size"), 100);
 }
@@ -197,8 +191,7 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("compare contact --biases adaptve", 2, "adaptve: no such bias");
   expectMistake("compare contact --maps vsv --biases slope,dual", 2,
                 "--maps vsv takes none of these --biases; choose from none, constant, adaptive");
-  expectMistake("compare contact --maps vsv --biases none --filters bilinear", 2,
-                "--maps vsv takes no filter");
+  expectMistake("compare contact --maps vsv --biases none --filters bilinear", 2, "--maps vsv takes no filter");
   expectMistake("compare contact --maps vsv --vsv-size 64x64x100", 2, "--vsv-size 64x64x100");
   expectMistake("compare contact --maps vsv --vsv-source cube", 2, "--vsv-source cube");
   expectMistake("compare contact --maps vsv --vsv-fit tight", 2, "--vsv-fit tight");
@@ -241,18 +234,14 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
 
 TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
   expectMistake("compare nowhere.glb", 1, "nowhere.glb");
-  expectMistake("compare contact --light moon --size 16", 1,
-                "--light moon: the scene has no light of this name");
-  expectMistake("compare contact --camera x --size 16", 1,
-                "--camera x: the scene has no camera of this name");
+  expectMistake("compare contact --light moon --size 16", 1, "--light moon: the scene has no light of this name");
+  expectMistake("compare contact --camera x --size 16", 1, "--camera x: the scene has no camera of this name");
   expectMistake("compare contact --device Voodoo2 --size 16", 1, "Voodoo2");
-  expectMistake("compare contact --camera eye:0,1000,0,target:0,2000,0 --size 16", 1,
-                "the camera sees no surface");
+  expectMistake("compare contact --camera eye:0,1000,0,target:0,2000,0 --size 16", 1, "the camera sees no surface");
   expectMistake("render contact --size 16 --map-size 16 -o /proc/nowhere/a.png", 1, "/proc/nowhere");
   expectMistake("fog grate --density @/none.vdb --size 16", 1, "none.vdb");
   expectMistake("fog atrium --light moon --size 16", 1, "--light moon");
-  expectMistake("fog grate --light 0,1,5 --camera eye:0,1,5,target:0,0,0 --size 16", 1,
-                "stands at the camera's eye");
+  expectMistake("fog grate --light 0,1,5 --camera eye:0,1,5,target:0,0,0 --size 16", 1, "stands at the camera's eye");
   expectMistake("scene nothing -o @/a.glb", 1, "nothing");
   expectMistake("scene --density steam -o @/a.vdb", 2, "choose of puff, fog, turbulence");
   expectMistake("scene --density puff", 2, "-o FILE.vdb");
@@ -267,14 +256,10 @@ TEST_F(CliTest, RenderDrawsEveryKindOfPicture) {
   for (const char* show : {"beauty", "visibility", "truth", "labels", "depth", "density"}) {
     const std::string name = std::string("@/") + show;
     EXPECT_EQ(
-        run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".png")
-            .exitCode,
-        0)
+        run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".png").exitCode, 0)
         << show;
     EXPECT_EQ(
-        run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".exr")
-            .exitCode,
-        0)
+        run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".exr").exitCode, 0)
         << show;
   }
   EXPECT_EQ(fileCount(), 12u);
@@ -284,25 +269,23 @@ TEST_F(CliTest, RenderDrawsEveryKindOfPicture) {
 TEST_F(CliTest, AnExportedSceneComparesEqual) {
   for (const std::string scene : {"contact", "sheets", "crowd:20000"}) {
     ASSERT_EQ(run("scene " + scene + " -o @/scene.glb").exitCode, 0);
-    const std::string flags =
-        " --biases none,second-depth,dual,adaptive --size 96 --map-size 64 --repeats 1 --json @/";
+    const std::string flags = " --biases none,second-depth,dual,adaptive --size 96 --map-size 64 --repeats 1 --json @/";
     ASSERT_EQ(run("compare " + scene + flags + "a.json").exitCode, 0);
     ASSERT_EQ(run("compare @/scene.glb" + flags + "b.json").exitCode, 0);
     auto a = nlohmann::json::parse(readFile(folder_ / "a.json"));
     auto b = nlohmann::json::parse(readFile(folder_ / "b.json"));
     ASSERT_EQ(a.at("rows").size(), b.at("rows").size());
     for (size_t i = 0; i < a.at("rows").size(); ++i)
-      for (const char* key :
-           {"scored", "agree", "acne", "leak", "edge_shadow", "edge_light", "uncovered", "params"})
+      for (const char* key : {"scored", "agree", "acne", "leak", "edge_shadow", "edge_light", "uncovered", "params"})
         EXPECT_EQ(a["rows"][i].at(key), b["rows"][i].at(key)) << scene << " " << key;
     EXPECT_EQ(a.at("scene").at("sceneScale"), b.at("scene").at("sceneScale"));
   }
 }
 
 TEST_F(CliTest, VsvValidatesAndWritesAVolume) {
-  const Result result = run(
-      "vsv contact --validate --vsv-size 64x64x128 --vsv-source resample --map-size 64 --size 64 -o @/out "
-      "--json @/v.json --vdb @/v.vdb");
+  const Result result =
+      run("vsv contact --validate --vsv-size 64x64x128 --vsv-source resample --map-size 64 --size 64 -o @/out "
+          "--json @/v.json --vdb @/v.vdb");
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const auto json = nlohmann::json::parse(readFile(folder_ / "v.json"));

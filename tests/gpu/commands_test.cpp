@@ -12,15 +12,14 @@ class CommandsTest : public GpuTest {
  protected:
   // Keeps the device busy for some milliseconds.
   ComputeProgram busyProgram() {
-    return ComputeProgram(device(),
-                          inlineShader("t/busy.comp.glsl",
-                                       "layout(local_size_x = 64) in;\n"
-                                       "layout(scalar, binding = 0) buffer B { uint v[]; };\n"
-                                       "void main() {\n"
-                                       "  uint x = gl_GlobalInvocationID.x;\n"
-                                       "  for (int i = 0; i < 2000; ++i) x = x * 1664525u + 1013904223u;\n"
-                                       "  v[gl_GlobalInvocationID.x] = x;\n"
-                                       "}\n"));
+    return ComputeProgram(device(), inlineShader("t/busy.comp.glsl",
+                                                 "layout(local_size_x = 64) in;\n"
+                                                 "layout(scalar, binding = 0) buffer B { uint v[]; };\n"
+                                                 "void main() {\n"
+                                                 "  uint x = gl_GlobalInvocationID.x;\n"
+                                                 "  for (int i = 0; i < 2000; ++i) x = x * 1664525u + 1013904223u;\n"
+                                                 "  v[gl_GlobalInvocationID.x] = x;\n"
+                                                 "}\n"));
   }
 };
 

@@ -67,8 +67,7 @@ TEST_F(ExactnessTest, ArithmeticHasTheSameBits) {
   for (size_t i = 0; i < inputs.size(); ++i) {
     const ArithmeticOutput expected = computeArithmetic(inputs[i]);
     for (Operation& operation : operations)
-      operation.worst =
-          std::max(operation.worst, ulpDistance(outputs[i].*operation.field, expected.*operation.field));
+      operation.worst = std::max(operation.worst, ulpDistance(outputs[i].*operation.field, expected.*operation.field));
     for (int k = 0; k < 3; ++k) {
       worstCross = std::max(worstCross, ulpDistance(outputs[i].crossProduct[k], expected.crossProduct[k]));
       worstNormalize = std::max(worstNormalize, ulpDistance(outputs[i].unit[k], expected.unit[k]));
@@ -98,9 +97,7 @@ TEST_F(ExactnessTest, TranscendentalsStayWithinTheirMeasuredError) {
       device(), GNOMON_TEST_SHADER("evaluate_transcendentals.comp.glsl"), inputs);
   TranscendentalOutput worst{};
   const auto absolute = [](float& most, float a, float b) { most = std::max(most, std::abs(a - b)); };
-  const auto relative = [](float& most, float a, float b) {
-    most = std::max(most, std::abs(a - b) / std::abs(b));
-  };
+  const auto relative = [](float& most, float a, float b) { most = std::max(most, std::abs(a - b) / std::abs(b)); };
   for (size_t i = 0; i < inputs.size(); ++i) {
     const TranscendentalOutput expected = computeTranscendentals(inputs[i]);
     absolute(worst.sine, outputs[i].sine, expected.sine);
@@ -111,9 +108,9 @@ TEST_F(ExactnessTest, TranscendentalsStayWithinTheirMeasuredError) {
     absolute(worst.logarithm, outputs[i].logarithm, expected.logarithm);
     relative(worst.power, outputs[i].power, expected.power);
   }
-  RecordProperty("worst", fmt::format("sin {} cos {} atan {} acos {} exp {} log {} pow {}", worst.sine,
-                                      worst.cosine, worst.arcTangent, worst.arcCosine, worst.exponential,
-                                      worst.logarithm, worst.power));
+  RecordProperty("worst",
+                 fmt::format("sin {} cos {} atan {} acos {} exp {} log {} pow {}", worst.sine, worst.cosine,
+                             worst.arcTangent, worst.arcCosine, worst.exponential, worst.logarithm, worst.power));
   EXPECT_LE(worst.sine, 1.2e-7f);
   EXPECT_LE(worst.cosine, 1.2e-7f);
   EXPECT_LE(worst.arcTangent, 4e-6f);

@@ -14,8 +14,7 @@
 namespace gnomon::test {
 
 // One value a pixel of a square picture, lit above one half.
-inline void compareWithGolden(const std::string& name, std::span<const float> visibility, int side,
-                              bool exact) {
+inline void compareWithGolden(const std::string& name, std::span<const float> visibility, int side, bool exact) {
   Image8 picture(side, side, 1);
   ASSERT_EQ(visibility.size(), picture.values.size());
   for (size_t i = 0; i < visibility.size(); ++i) picture.values[i] = visibility[i] > 0.5f ? 255 : 0;

@@ -50,8 +50,7 @@ class ProgramTest : public GpuTest {
 };
 
 TEST_F(ProgramTest, EveryKindOfBindingArrives) {
-  const std::vector<float> results =
-      run(ComputeProgram(device(), GNOMON_TEST_SHADER("add_texture.comp.glsl")));
+  const std::vector<float> results = run(ComputeProgram(device(), GNOMON_TEST_SHADER("add_texture.comp.glsl")));
   for (uint32_t i = 0; i < kCount; ++i) ASSERT_EQ(results[i], 13.0f * static_cast<float>(i)) << i;
 }
 
@@ -70,27 +69,25 @@ TEST_F(ProgramTest, AProgramMoves) {
 TEST_F(ProgramTest, AMissingBindingAbortsAndIsNamed) {
   const ComputeProgram program(device(), GNOMON_TEST_SHADER("add_texture.comp.glsl"));
   Commands commands(device(), "wrong");
-  EXPECT_DEATH(commands.dispatch(program, {1, 1, 1}, asPush(Push{}),
-                                 {{0, input_}, {1, output_}, {4, image_}, {7, image_}}),
-               "add_texture.comp.glsl is given nothing for binding 2 against texture 'plain'");
+  EXPECT_DEATH(
+      commands.dispatch(program, {1, 1, 1}, asPush(Push{}), {{0, input_}, {1, output_}, {4, image_}, {7, image_}}),
+      "add_texture.comp.glsl is given nothing for binding 2 against texture 'plain'");
 }
 
 TEST_F(ProgramTest, AnUnknownBindingAborts) {
   const ComputeProgram program(device(), GNOMON_TEST_SHADER("add_texture.comp.glsl"));
   Commands commands(device(), "wrong");
-  EXPECT_DEATH(
-      commands.dispatch(program, {1, 1, 1}, asPush(Push{}),
-                        {{0, input_}, {1, output_}, {2, image_}, {3, input_}, {4, image_}, {7, image_}}),
-      "is given binding 3 against");
+  EXPECT_DEATH(commands.dispatch(program, {1, 1, 1}, asPush(Push{}),
+                                 {{0, input_}, {1, output_}, {2, image_}, {3, input_}, {4, image_}, {7, image_}}),
+               "is given binding 3 against");
 }
 
 TEST_F(ProgramTest, ABindingGivenTwiceAborts) {
   const ComputeProgram program(device(), GNOMON_TEST_SHADER("add_texture.comp.glsl"));
   Commands commands(device(), "wrong");
-  EXPECT_DEATH(
-      commands.dispatch(program, {1, 1, 1}, asPush(Push{}),
-                        {{0, input_}, {1, output_}, {2, image_}, {2, image_}, {4, image_}, {7, image_}}),
-      "is given 6 bindings, one of them twice against the 5");
+  EXPECT_DEATH(commands.dispatch(program, {1, 1, 1}, asPush(Push{}),
+                                 {{0, input_}, {1, output_}, {2, image_}, {2, image_}, {4, image_}, {7, image_}}),
+               "is given 6 bindings, one of them twice against the 5");
 }
 
 TEST_F(ProgramTest, ABufferWhereAnImageBelongsAborts) {
@@ -125,10 +122,9 @@ TEST_F(ProgramTest, StagesThatDisagreeOnABindingAreRefused) {
                                              "layout(location = 0) out vec4 c;\n"
                                              "void main() { c = texelFetch(t, ivec3(0), 0); }\n");
   try {
-    GraphicsProgram(device(), {.name = "disagree",
-                               .vertex = vertex,
-                               .fragment = fragment,
-                               .colorFormats = {VK_FORMAT_R32G32B32A32_SFLOAT}});
+    GraphicsProgram(
+        device(),
+        {.name = "disagree", .vertex = vertex, .fragment = fragment, .colorFormats = {VK_FORMAT_R32G32B32A32_SFLOAT}});
     FAIL() << "not refused";
   } catch (const WorldError& error) {
     EXPECT_NE(std::string(error.what()).find("disagree: binding 0"), std::string::npos) << error.what();
@@ -145,8 +141,7 @@ TEST_F(ProgramTest, TooManyPushConstantsAreRefusedWithTheLimit) {
     ComputeProgram(device(), source);
     FAIL() << "not refused";
   } catch (const WorldError& error) {
-    EXPECT_NE(std::string(error.what()).find("16384 bytes of push constants"), std::string::npos)
-        << error.what();
+    EXPECT_NE(std::string(error.what()).find("16384 bytes of push constants"), std::string::npos) << error.what();
   }
 }
 

@@ -18,8 +18,7 @@ using Positions = std::vector<glm::vec4>;
 //     +  ./
 Positions halfTriangle(float z0, float dz = 0.0f) {
   const float beyond = 1.0f + 1.0f / kSize;
-  return {
-      {-1.0f, -1.0f, z0, 1.0f}, {beyond, -1.0f, z0 + dz * (kSize + 0.5f), 1.0f}, {-1.0f, beyond, z0, 1.0f}};
+  return {{-1.0f, -1.0f, z0, 1.0f}, {beyond, -1.0f, z0 + dz * (kSize + 0.5f), 1.0f}, {-1.0f, beyond, z0, 1.0f}};
 }
 
 bool inHalf(uint32_t x, uint32_t y) {
@@ -71,9 +70,7 @@ TEST_F(RasterTest, ATriangleFillsColourAndDepth) {
   for (const glm::vec4& position : halfTriangle(0.25f, 1.0f / 32.0f)) values.push_back(position);
   const Buffer buffer = positions(values);
   const glm::vec4 red(1, 0, 0, 1), blue(0, 0, 1, 1);
-  render({.colors = {{&color, VkClearColorValue{{9.0f, 9.0f, 9.0f, 9.0f}}}},
-          .depth = &depth,
-          .clearDepth = 1.0f},
+  render({.colors = {{&color, VkClearColorValue{{9.0f, 9.0f, 9.0f, 9.0f}}}}, .depth = &depth, .clearDepth = 1.0f},
          [&](Commands& commands) {
            commands.bind(program, asPush(red), {{0, buffer}});
            commands.draw(3, 1, 0, 0);
@@ -95,10 +92,9 @@ TEST_F(RasterTest, ATriangleFillsColourAndDepth) {
 
 TEST_F(RasterTest, WhatIsNotClearedIsKept) {
   const Image color = colorImage(VK_FORMAT_R32G32B32A32_SFLOAT);
-  const GraphicsProgram program(device(), {.name = "keep",
-                                           .vertex = vertex_,
-                                           .fragment = color_,
-                                           .colorFormats = {VK_FORMAT_R32G32B32A32_SFLOAT}});
+  const GraphicsProgram program(
+      device(),
+      {.name = "keep", .vertex = vertex_, .fragment = color_, .colorFormats = {VK_FORMAT_R32G32B32A32_SFLOAT}});
   const Buffer buffer = positions(halfTriangle(0.5f));
   const glm::vec4 red(1, 0, 0, 1);
   render({.colors = {{&color, VkClearColorValue{{9.0f, 9.0f, 9.0f, 9.0f}}}}}, [](Commands&) {});
@@ -113,8 +109,8 @@ TEST_F(RasterTest, WhatIsNotClearedIsKept) {
 
 TEST_F(RasterTest, DepthOnlyDrawsToTheNamedLayerAndNoOther) {
   const Image depth = depthImage(4);
-  const GraphicsProgram program(
-      device(), {.name = "depth only", .vertex = vertex_, .depthFormat = VK_FORMAT_D32_SFLOAT});
+  const GraphicsProgram program(device(),
+                                {.name = "depth only", .vertex = vertex_, .depthFormat = VK_FORMAT_D32_SFLOAT});
   const Buffer buffer = positions(halfTriangle(0.5f));
   for (uint32_t layer = 0; layer < 4; ++layer)
     render({.depth = &depth, .clearDepth = 1.0f, .layer = layer}, [&](Commands& commands) {
@@ -140,8 +136,8 @@ TEST_F(RasterTest, MultiviewDrawsEveryLayerInOnePass) {
                                            .depthFormat = VK_FORMAT_D32_SFLOAT,
                                            .viewMask = 0b11});
   const float shortOf = 1.0f - 1.0f / kSize;
-  const Buffer buffer = positions(
-      {{-1.0f, -1.0f, 0.125f, 1.0f}, {shortOf, -1.0f, 0.125f, 1.0f}, {-1.0f, shortOf, 0.125f, 1.0f}});
+  const Buffer buffer =
+      positions({{-1.0f, -1.0f, 0.125f, 1.0f}, {shortOf, -1.0f, 0.125f, 1.0f}, {-1.0f, shortOf, 0.125f, 1.0f}});
   render({.depth = &depth, .clearDepth = 1.0f, .viewMask = 0b11}, [&](Commands& commands) {
     commands.bind(program, {}, {{0, buffer}});
     commands.draw(3, 1, 0, 0);
@@ -184,9 +180,8 @@ TEST_F(RasterTest, ThePrimitiveNumberReachesTheFragmentShaderOfAnIndexedDraw) {
                                            .colorFormats = {VK_FORMAT_R32_UINT}});
   // Two halves of a square, the second first in the index buffer.
   const Buffer buffer = positions({{-1, -1, 0, 1}, {1, -1, 0, 1}, {-1, 1, 0, 1}, {1, 1, 0, 1}});
-  const Buffer indices =
-      createBufferWith(device(), "indices", std::vector<uint32_t>{9, 9, 9, 2, 1, 3, 0, 1, 2},
-                       VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  const Buffer indices = createBufferWith(device(), "indices", std::vector<uint32_t>{9, 9, 9, 2, 1, 3, 0, 1, 2},
+                                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   render({.colors = {{&color, VkClearColorValue{}}}}, [&](Commands& commands) {
     commands.bind(program, {}, {{0, buffer}});
     commands.bindIndexBuffer(indices);
@@ -199,8 +194,7 @@ TEST_F(RasterTest, ThePrimitiveNumberReachesTheFragmentShaderOfAnIndexedDraw) {
 }
 
 TEST_F(RasterTest, CullingDropsTheSideThatIsAsked) {
-  const GraphicsProgram program(device(),
-                                {.name = "culled", .vertex = vertex_, .depthFormat = VK_FORMAT_D32_SFLOAT});
+  const GraphicsProgram program(device(), {.name = "culled", .vertex = vertex_, .depthFormat = VK_FORMAT_D32_SFLOAT});
   const Buffer buffer = positions(halfTriangle(0.5f));  // clockwise, as seen with y down
   const auto drawn = [&](VkCullModeFlags mode, VkFrontFace front) {
     const Image depth = depthImage();
@@ -221,8 +215,7 @@ TEST_F(RasterTest, DepthClampKeepsWhatIsInFrontOfTheNearPlane) {
   const Buffer buffer = positions(halfTriangle(-0.5f));
   for (const bool clamp : {false, true}) {
     const GraphicsProgram program(
-        device(),
-        {.name = "clamped", .vertex = vertex_, .depthFormat = VK_FORMAT_D32_SFLOAT, .depthClamp = clamp});
+        device(), {.name = "clamped", .vertex = vertex_, .depthFormat = VK_FORMAT_D32_SFLOAT, .depthClamp = clamp});
     const Image depth = depthImage();
     render({.depth = &depth, .clearDepth = 1.0f}, [&](Commands& commands) {
       commands.bind(program, {}, {{0, buffer}});

@@ -27,10 +27,8 @@ TEST(Reflect, TellsTypesNamesAndPushConstants) {
     VkDescriptorType type;
     const char* name;
   } expected[] = {
-      {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, "source"},
-      {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, "Output"},
-      {2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, "plain"},
-      {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, "sampled"},
+      {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, "source"}, {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, "Output"},
+      {2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, "plain"},   {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, "sampled"},
       {7, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, "stored"},
   };
   ASSERT_EQ(interface.bindings.size(), std::size(expected));
@@ -86,14 +84,12 @@ TEST(Reflect, OtherSetsArraysAndKindsAreRefusedByName) {
     }
     return "";
   };
-  EXPECT_NE(
-      refusal("layout(set = 1, binding = 0, scalar) buffer B { uint v; } far;\nvoid main() { far.v = 1u; }\n")
-          .find("'far' is in set 1"),
-      std::string::npos);
-  EXPECT_NE(
-      refusal("layout(binding = 0, scalar) buffer B { uint v; } many[3];\nvoid main() { many[1].v = 1u; }\n")
-          .find("'many' is an array"),
-      std::string::npos);
+  EXPECT_NE(refusal("layout(set = 1, binding = 0, scalar) buffer B { uint v; } far;\nvoid main() { far.v = 1u; }\n")
+                .find("'far' is in set 1"),
+            std::string::npos);
+  EXPECT_NE(refusal("layout(binding = 0, scalar) buffer B { uint v; } many[3];\nvoid main() { many[1].v = 1u; }\n")
+                .find("'many' is an array"),
+            std::string::npos);
   EXPECT_NE(refusal("layout(binding = 0) uniform sampler alone;\nlayout(binding = 1) uniform texture2D t;\n"
                     "layout(binding = 2, scalar) buffer B { vec4 v; };\n"
                     "void main() { v = textureLod(sampler2D(t, alone), vec2(0), 0); }\n")

@@ -36,8 +36,7 @@ std::vector<std::byte> pattern(size_t size) {
 }
 
 // Empty, odd, whole words, and around the staging chunk of 16 MiB.
-constexpr size_t kSizes[] = {
-    0, 1, 3, 4, 5, 4096, (16u << 20) - 1, 16u << 20, (16u << 20) + 1, (33u << 20) + 7};
+constexpr size_t kSizes[] = {0, 1, 3, 4, 5, 4096, (16u << 20) - 1, 16u << 20, (16u << 20) + 1, (33u << 20) + 7};
 
 void checkRoundTrips(const Device& device, Memory memory) {
   for (const size_t size : kSizes) {
@@ -114,8 +113,7 @@ TEST_F(ResourcesTest, AnImageBeyondTheLimitsIsRefusedByName) {
   const uint32_t most = device().info().maxImageDimension2D;
   const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
   const std::string wide = refusal([&] {
-    Image(device(),
-          {.name = "wide map", .format = VK_FORMAT_R32_SFLOAT, .width = most + 1, .usage = sampled});
+    Image(device(), {.name = "wide map", .format = VK_FORMAT_R32_SFLOAT, .width = most + 1, .usage = sampled});
   });
   EXPECT_NE(wide.find("'wide map'"), std::string::npos) << wide;
   EXPECT_NE(wide.find(fmt::format("{}", most)), std::string::npos) << wide;
@@ -164,8 +162,7 @@ TEST_F(ResourcesTest, MemoryThatRunsOutIsReportedByNameAndTheNextSmallerOneFits)
 
 TEST_F(ResourcesTest, AFormatTheDeviceLacksIsRefused) {
   const std::string message = refusal([&] {
-    Image(device(),
-          {.name = "odd", .format = VK_FORMAT_D32_SFLOAT, .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
+    Image(device(), {.name = "odd", .format = VK_FORMAT_D32_SFLOAT, .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
   });
   EXPECT_NE(message.find("'odd'"), std::string::npos) << message;
 }

@@ -48,24 +48,21 @@ TEST(ShaderCompiler, IncludeCyclesEnd) {
 }
 
 TEST(ShaderCompiler, AnErrorNamesItsFileAndLine) {
-  const ShaderSource source = inlineShader(
-      "t/bad.comp.glsl", "// one\nlayout(local_size_x = 1) in;\nvoid main() {\n  int x = y;\n}\n");
-  EXPECT_TRUE(refusal(source).starts_with("t/bad.comp.glsl:4: 'y' : undeclared identifier"))
-      << refusal(source);
+  const ShaderSource source =
+      inlineShader("t/bad.comp.glsl", "// one\nlayout(local_size_x = 1) in;\nvoid main() {\n  int x = y;\n}\n");
+  EXPECT_TRUE(refusal(source).starts_with("t/bad.comp.glsl:4: 'y' : undeclared identifier")) << refusal(source);
 }
 
 TEST(ShaderCompiler, AnErrorInAnIncludedFileNamesThatFile) {
-  ShaderSource source =
-      inlineShader("t/a.comp.glsl", "#include \"shared/texture.glsl\"\n#include \"user/bias.glsl\"\n" +
-                                        std::string(kEmptyMain));
+  ShaderSource source = inlineShader(
+      "t/a.comp.glsl", "#include \"shared/texture.glsl\"\n#include \"user/bias.glsl\"\n" + std::string(kEmptyMain));
   source.overrides["user/bias.glsl"] = "\n#include \"shared/lang.glsl\"\nfloat bias() { return 1.0 +; }\n";
   EXPECT_TRUE(refusal(source).starts_with("user/bias.glsl:3: ")) << refusal(source);
 }
 
 TEST(ShaderCompiler, AnErrorAfterAnIncludeKeepsItsLine) {
   const ShaderSource source = inlineShader(
-      "t/a.comp.glsl",
-      "#include \"shared/texture.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() { oops(); }\n");
+      "t/a.comp.glsl", "#include \"shared/texture.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() { oops(); }\n");
   EXPECT_TRUE(refusal(source).starts_with("t/a.comp.glsl:3: ")) << refusal(source);
 }
 
@@ -79,15 +76,14 @@ TEST(ShaderCompiler, ManyErrorsAreCutToTheFirst) {
 }
 
 TEST(ShaderCompiler, AMissingIncludeNamesWhoAsksForIt) {
-  const std::string message = refusal(
-      inlineShader("t/a.comp.glsl", std::string("//\n#include \"shared/nothing.glsl\"\n") + kEmptyMain));
+  const std::string message =
+      refusal(inlineShader("t/a.comp.glsl", std::string("//\n#include \"shared/nothing.glsl\"\n") + kEmptyMain));
   EXPECT_TRUE(message.starts_with("t/a.comp.glsl:2: ")) << message;
   EXPECT_NE(message.find("'shared/nothing.glsl'"), std::string::npos) << message;
 }
 
 TEST(ShaderCompiler, AMissingShaderAndAnUnknownStageAreRefused) {
-  EXPECT_NE(refusal({.path = "t/nothing.comp.glsl", .overrides = {}}).find("t/nothing.comp.glsl"),
-            std::string::npos);
+  EXPECT_NE(refusal({.path = "t/nothing.comp.glsl", .overrides = {}}).find("t/nothing.comp.glsl"), std::string::npos);
   EXPECT_NE(refusal(inlineShader("t/a.glsl", kEmptyMain)).find("shader stage"), std::string::npos);
 }
 
@@ -104,8 +100,7 @@ TEST(ShaderCompiler, WindowsLineEndsAndAMissingLastOneAreFine) {
 }
 
 TEST(ShaderCompiler, AnOverrideReplacesAnEmbeddedFile) {
-  ShaderSource source =
-      inlineShader("t/a.comp.glsl", std::string("#include \"shared/texture.glsl\"\n") + kEmptyMain);
+  ShaderSource source = inlineShader("t/a.comp.glsl", std::string("#include \"shared/texture.glsl\"\n") + kEmptyMain);
   source.overrides["shared/texture.glsl"] = "// mine\n";
   const std::string text = expandShader(source);
   EXPECT_EQ(countOf(text, "// mine"), 1u);
@@ -126,8 +121,7 @@ TEST(ShaderCompiler, ThreadsCompileAtOnce) {
   const TemporaryFolder cache;
   ::setenv("GNOMON_CACHE_DIR", cache.path().c_str(), 1);
   const auto text = [](int i) {
-    return fmt::format("#include \"shared/texture.glsl\"\nlayout(local_size_x = {}) in;\nvoid main() {{}}\n",
-                       i + 1);
+    return fmt::format("#include \"shared/texture.glsl\"\nlayout(local_size_x = {}) in;\nvoid main() {{}}\n", i + 1);
   };
   std::vector<std::vector<uint32_t>> results(16);
   std::vector<std::thread> threads;
@@ -137,8 +131,7 @@ TEST(ShaderCompiler, ThreadsCompileAtOnce) {
     });
   for (std::thread& thread : threads) thread.join();
   ::setenv("GNOMON_CACHE_DIR", "", 1);
-  for (int i = 0; i < 16; ++i)
-    EXPECT_EQ(results[i], compileShader(inlineShader("t/a.comp.glsl", text(i)))) << i;
+  for (int i = 0; i < 16; ++i) EXPECT_EQ(results[i], compileShader(inlineShader("t/a.comp.glsl", text(i)))) << i;
 }
 
 }  // namespace

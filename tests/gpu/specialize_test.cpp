@@ -73,8 +73,7 @@ TEST(Specialize, WhatIsOnDiskIsWhatWasMade) {
 
 // A pipeline of one bias on one map holds half of the shader that serves all of them.
 TEST(Specialize, AVisibilityShaderShrinksToItsBiasAndMap) {
-  const std::vector<uint32_t> whole =
-      compileShader({.path = "shadow/shade_visibility.comp.glsl", .overrides = {}});
+  const std::vector<uint32_t> whole = compileShader({.path = "shadow/shade_visibility.comp.glsl", .overrides = {}});
   const std::vector<uint32_t> one = specialize(whole, {{.id = 0, .value = 3}, {.id = 2, .value = 1}});
   EXPECT_LT(one.size() * 10, whole.size() * 6);
 }

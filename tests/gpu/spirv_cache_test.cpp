@@ -15,11 +15,10 @@ class SpirvCacheTest : public ::testing::Test {
   SpirvCacheTest() { ::setenv("GNOMON_CACHE_DIR", folder_.path().c_str(), 1); }
 
   static ShaderSource source(int value) {
-    return inlineShader(
-        "t/a.comp.glsl",
-        fmt::format("layout(local_size_x = 1) in;\nlayout(scalar, binding = 0) buffer B {{ int v; }};\n"
-                    "void main() {{ v = {}; }}\n",
-                    value));
+    return inlineShader("t/a.comp.glsl",
+                        fmt::format("layout(local_size_x = 1) in;\nlayout(scalar, binding = 0) buffer B {{ int v; }};\n"
+                                    "void main() {{ v = {}; }}\n",
+                                    value));
   }
 
   // Compiles and tells what was counted meanwhile.

@@ -20,12 +20,8 @@ std::vector<TextureLookup> randomLookups(size_t count) {
   std::uniform_real_distribution<float> near(-2.0f, 3.0f), far(-1e4f, 1e4f);
   std::vector<TextureLookup> lookups(count);
   for (TextureLookup& lookup : lookups) {
-    lookup.info = {static_cast<uint>(size(random)),
-                   size(random),
-                   size(random),
-                   mode(random),
-                   mode(random),
-                   filter(random)};
+    lookup.info = {
+        static_cast<uint>(size(random)), size(random), size(random), mode(random), mode(random), filter(random)};
     switch (kind(random)) {
       case 0:
         lookup.uv = vec2(far(random), far(random));
@@ -45,8 +41,8 @@ class TextureTest : public GpuTest {};
 
 TEST_F(TextureTest, TapsOnTheGpuEqualTapsOnTheCpu) {
   const std::vector<TextureLookup> lookups = randomLookups(kKernelInputCount);
-  const auto taps = runKernel<TextureLookup, TextureTaps>(
-      device(), GNOMON_TEST_SHADER("evaluate_texture_taps.comp.glsl"), lookups);
+  const auto taps =
+      runKernel<TextureLookup, TextureTaps>(device(), GNOMON_TEST_SHADER("evaluate_texture_taps.comp.glsl"), lookups);
   size_t wrongTexels = 0;
   int64_t worstUlps = 0;
   for (size_t i = 0; i < lookups.size(); ++i) {
@@ -66,8 +62,7 @@ TEST(TextureTaps, LieInsideTheImageAndWeighOne) {
     float sum = 0.0f;
     for (int k = 0; k < 4; ++k) {
       ASSERT_GE(taps.texel[k], lookup.info.firstTexel);
-      ASSERT_LT(taps.texel[k],
-                lookup.info.firstTexel + static_cast<uint>(lookup.info.width * lookup.info.height));
+      ASSERT_LT(taps.texel[k], lookup.info.firstTexel + static_cast<uint>(lookup.info.width * lookup.info.height));
       ASSERT_GE(taps.weight[k], 0.0f);
       sum += taps.weight[k];
     }

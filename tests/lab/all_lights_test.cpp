@@ -1,10 +1,10 @@
 // --light all: each light on its own, and sums that add up.
 #include "base/error.h"
 #include "base/file.h"
-#include "lab/compare.h"
-#include "lab/maps.h"
-#include "lab/report.h"
-#include "lab/results.h"
+#include "lab/compare/compare.h"
+#include "lab/compare/results.h"
+#include "lab/core/maps.h"
+#include "lab/page/report.h"
 #include "scene/generate.h"
 #include "tests/base/temporary_folder.h"
 
@@ -66,8 +66,7 @@ TEST(AllLights, AMapThatNoLightIsForSaysSo) {
     chooseLights(all, tracer, *parseMaps("cube").front());
     FAIL();
   } catch (const WorldError& error) {
-    EXPECT_NE(std::string(error.what()).find("--light all: the scene has no light that a cube map"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("--light all: the scene has no light that a cube map"), std::string::npos)
         << error.what();
   }
 }

@@ -1,5 +1,5 @@
 // The bench: ratios are of one round, and its curves and numbers are all there.
-#include "lab/bench.h"
+#include "lab/bench/bench.h"
 
 #include <gtest/gtest.h>
 
@@ -58,9 +58,8 @@ TEST(Bench, EveryStageOfASceneIsTimedAgainstOneThatIsThere) {
     EXPECT_GT(stage["ratio"].get<double>(), 0.0) << stage;
     EXPECT_TRUE(names.contains(stage["ratio_to"])) << stage << " is compared with what comes later";
   }
-  for (const char* name :
-       {"map/cube/two layers", "map/paraboloid, vertex/one layer", "visibility/cube/adaptive",
-        "volume/bits, one pass", "truth/exact shadow", "media/runs", "media/march 512 steps"})
+  for (const char* name : {"map/cube/two layers", "map/paraboloid, vertex/one layer", "visibility/cube/adaptive",
+                           "volume/bits, one pass", "truth/exact shadow", "media/runs", "media/march 512 steps"})
     EXPECT_TRUE(names.contains(name)) << name;
 }
 

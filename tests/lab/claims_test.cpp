@@ -1,6 +1,6 @@
 // Verdicts: computed from numbers by the rule that is shown, and by nothing else.
-#include "lab/claims.h"
-#include "lab/reproduce_dou2014.h"
+#include "lab/paper/claims.h"
+#include "lab/paper/reproduce_dou2014.h"
 
 #include <algorithm>
 #include <array>
@@ -56,8 +56,7 @@ TEST(Claims, WithoutItsNumbersAClaimHasNoVerdict) {
 }
 
 TEST(Claims, TheEvidenceNamesEachNumberOnce) {
-  const JudgedClaim judged =
-      judge({"a(x) < 2 b(x)", "a(x) > 0.25"}, {{"a(x)", 489.0}, {"b(x)", 0.000123456}});
+  const JudgedClaim judged = judge({"a(x) < 2 b(x)", "a(x) > 0.25"}, {{"a(x)", 489.0}, {"b(x)", 0.000123456}});
   EXPECT_EQ(evidenceText(judged), "a(x) = 489, b(x) = 0.000123; a(x) < 2 b(x): no; a(x) > 0.25: yes");
 }
 
@@ -68,8 +67,7 @@ TEST(ClaimsDeathTest, WhatCannotBeParsedAborts) {
 }
 
 const JudgedClaim& claimOf(const std::vector<JudgedClaim>& claims, const std::string& figure) {
-  return *std::ranges::find_if(claims,
-                               [&](const JudgedClaim& judged) { return judged.claim.figure == figure; });
+  return *std::ranges::find_if(claims, [&](const JudgedClaim& judged) { return judged.claim.figure == figure; });
 }
 
 // Figure 5 as it was measured; with the numbers of its panels exchanged, the claims turn.

@@ -1,11 +1,11 @@
 // The main job end to end: rows that add up, results.json as docs/results.md has it, and the same bytes
 // twice.
-#include "lab/compare.h"
+#include "lab/compare/compare.h"
 #include "base/file.h"
-#include "lab/maps.h"
-#include "lab/pictures.h"
-#include "lab/results.h"
-#include "lab/table.h"
+#include "lab/compare/results.h"
+#include "lab/compare/table.h"
+#include "lab/core/maps.h"
+#include "lab/picture/pictures.h"
 #include "tests/gpu_fixture.h"
 
 #include <cmath>
@@ -52,8 +52,7 @@ Outcome run(const std::string& scene, const std::string& maps) {
 // Removes what is allowed to differ between two runs.
 void dropTimes(Json& json) {
   if (json.is_object()) {
-    for (auto it = json.begin(); it != json.end();)
-      it = it.key().ends_with("_ms") ? json.erase(it) : std::next(it);
+    for (auto it = json.begin(); it != json.end();) it = it.key().ends_with("_ms") ? json.erase(it) : std::next(it);
   }
   if (json.is_structured())
     for (Json& child : json) dropTimes(child);
@@ -74,16 +73,14 @@ TEST(Compare, ResultsFollowTheSchema) {
   const Outcome outcome = run("lshape", "spot,directional");
   const Json& json = outcome.json;
   EXPECT_EQ(json.at("schema"), kResultsVersion);
-  for (const char* key : {"version", "device", "driver", "command"})
-    EXPECT_TRUE(json.at("gnomon").at(key).is_string());
+  for (const char* key : {"version", "device", "driver", "command"}) EXPECT_TRUE(json.at("gnomon").at(key).is_string());
   EXPECT_GT(json.at("scene").at("triangles"), 0);
   EXPECT_GT(json.at("scene").at("sceneScale"), 0.0);
   EXPECT_EQ(json.at("camera").at("width"), 160);
   EXPECT_EQ(json.at("truths").size(), 2u);
   EXPECT_EQ(json.at("truth"), json.at("truths")[0]);
   for (const Json& truth : json.at("truths")) {
-    for (const char* key :
-         {"scored", "lit", "facing_away", "outside_cone", "margin_flips_half", "margin_flips_double"})
+    for (const char* key : {"scored", "lit", "facing_away", "outside_cone", "margin_flips_half", "margin_flips_double"})
       EXPECT_TRUE(truth.at(key).is_number_unsigned()) << key;
     EXPECT_TRUE(truth.at("light").at("type").is_string());
   }
@@ -93,17 +90,16 @@ TEST(Compare, ResultsFollowTheSchema) {
     for (const char* key : {"agree", "acne", "leak", "edge_shadow", "edge_light", "uncovered"})
       sum += row.at(key).get<uint64_t>();
     EXPECT_EQ(sum, row.at("scored").get<uint64_t>());
-    const double error =
-        (row.at("acne").get<double>() + row.at("leak").get<double>()) / row.at("scored").get<double>();
+    const double error = (row.at("acne").get<double>() + row.at("leak").get<double>()) / row.at("scored").get<double>();
     EXPECT_DOUBLE_EQ(row.at("bias_error").get<double>(), error);
     EXPECT_EQ(row.at("map_texels"), 128 * 128);
     EXPECT_EQ(row.at("filter"), "none");
     EXPECT_TRUE(row.at("params").is_object());
     EXPECT_GE(row.at("build_ms"), 0.0);
     EXPECT_GE(row.at("shade_ms"), 0.0);
-    EXPECT_DOUBLE_EQ(row.at("frame_ms").get<double>(), json.at("gbuffer_ms").get<double>() +
-                                                           row.at("build_ms").get<double>() +
-                                                           row.at("shade_ms").get<double>());
+    EXPECT_DOUBLE_EQ(
+        row.at("frame_ms").get<double>(),
+        json.at("gbuffer_ms").get<double>() + row.at("build_ms").get<double>() + row.at("shade_ms").get<double>());
     EXPECT_EQ(row.at("tuned"), false);
     EXPECT_TRUE(row.at("tuning").is_null());
     EXPECT_EQ(row.at("worst_acne").is_null(), row.at("acne") == 0);
@@ -127,17 +123,14 @@ TEST(Compare, NoPictureHasANanOrAnInfinity) {
     Passes passes(session.device(), session.view());
     for (const Parameterization* map : parameterizations()) {
       const Exact exact = computeExact(session, *map);
-      const Fit fit =
-          fitMap(session, *map, exact, 64, {.volumeSize = {.alpha = 64, .theta = 64, .phi = 128}});
+      const Fit fit = fitMap(session, *map, exact, 64, {.volumeSize = {.alpha = 64, .theta = 64, .phi = 128}});
       // Those that divide, move the receiver, or read more than one depth.
       for (const char* name : {"constant", "normal-offset", "receiver-plane", "dual", "adaptive-ehm"}) {
         const BiasMethod& bias = findBias(name);
         if (!map->answers(bias)) continue;
-        const DrawnMap drawn =
-            drawMap(session, passes.renderers, fit.fitted, exact, bias.content, CullMode::Solids);
+        const DrawnMap drawn = drawMap(session, passes.renderers, fit.fitted, exact, bias.content, CullMode::Solids);
         const Judged judged = judge(session, passes, drawn, exact, methodFor(session, {}, bias));
-        for (const float v : judged.visibility)
-          ASSERT_TRUE(v == 0.0f || v == 1.0f) << scene << " " << bias.name;
+        for (const float v : judged.visibility) ASSERT_TRUE(v == 0.0f || v == 1.0f) << scene << " " << bias.name;
         for (const float v : renderRadiance(session, passes, exact, judged.visibility).values)
           ASSERT_TRUE(std::isfinite(v) && v >= 0.0f) << scene << " " << bias.name;
       }
@@ -174,8 +167,7 @@ TEST(ResultsJson, SaysOfAPointLightsMapWhatIsNotDefault) {
   options.repeats = 1;
   const auto paramsOf = [&](const MapOptions& mapOptions) {
     options.mapOptions = mapOptions;
-    const Json rows =
-        Json::parse(resultsJson(session, setup, compare(session, options), "gnomon compare")).at("rows");
+    const Json rows = Json::parse(resultsJson(session, setup, compare(session, options), "gnomon compare")).at("rows");
     return std::pair(rows[0].at("params"), rows[1].at("params"));
   };
   const auto [cube, paraboloid] = paramsOf({.cubeDepth = CubeDepth::Radial,

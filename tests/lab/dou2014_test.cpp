@@ -1,8 +1,8 @@
 // Dou et al., "Adaptive Depth Bias for Shadow Maps", 2014, figure 7 in kind: a near box and a far wall
 // through one dual-paraboloid map.
-#include "lab/compare.h"
-#include "lab/maps.h"
-#include "lab/tune.h"
+#include "lab/compare/compare.h"
+#include "lab/compare/tune.h"
+#include "lab/core/maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +24,8 @@ struct View {
       : session({.validation = true}, {.scene = "near-far", .camera = camera, .size = "256"}),
         passes(session.device(), session.view()),
         exact(computeExact(session, *parseMaps("paraboloid").front())),
-        maps(session, passes.renderers,
-             fitMap(session, *parseMaps("paraboloid").front(), exact, 2048, {}).fitted, exact,
-             CullMode::Solids),
+        maps(session, passes.renderers, fitMap(session, *parseMaps("paraboloid").front(), exact, 2048, {}).fitted,
+             exact, CullMode::Solids),
         trial(session, passes, exact, maps) {}
 
   double error(const char* bias, float glsl::BiasParams::*knob, float value) {

@@ -1,11 +1,11 @@
 // Biases know nothing of fits, warps and cascades: adaptive keeps `slope` clean on all of them, and a result
 // says which it was.
 #include "base/file.h"
-#include "lab/compare.h"
-#include "lab/maps.h"
-#include "lab/pictures.h"
-#include "lab/results.h"
-#include "shadow/texel_density.h"
+#include "judge/texel_density.h"
+#include "lab/compare/compare.h"
+#include "lab/compare/results.h"
+#include "lab/core/maps.h"
+#include "lab/picture/pictures.h"
 #include "tests/gpu_fixture.h"
 
 #include <set>
@@ -23,8 +23,7 @@ TEST(FitAndWarp, AdaptiveHasNeitherAcneNorLeakOnSlopeUnderAnyOfThem) {
   Passes passes(session.device(), session.view());
   std::vector<MapOptions> all;
   for (const WindowFit fit : {WindowFit::None, WindowFit::Tight, WindowFit::Focused}) {
-    for (const Warp warp : {Warp::None, Warp::Psm, Warp::Lispsm, Warp::Tsm})
-      all.push_back({.fit = fit, .warp = warp});
+    for (const Warp warp : {Warp::None, Warp::Psm, Warp::Lispsm, Warp::Tsm}) all.push_back({.fit = fit, .warp = warp});
     all.push_back({.fit = fit, .cascades = 4});
   }
   all.push_back({.snap = false});
@@ -32,15 +31,13 @@ TEST(FitAndWarp, AdaptiveHasNeitherAcneNorLeakOnSlopeUnderAnyOfThem) {
     const Parameterization& map = *parseMaps(name).front();
     const Exact exact = computeExact(session, map);
     for (const MapOptions& options : all) {
-      const std::string what = std::string(name) + " " + windowFitName(options.fit) + " " +
-                               warpName(options.warp) + " " + std::to_string(options.cascades);
-      const DrawnMap drawn =
-          drawMap(session, passes.renderers, fitMap(session, map, exact, 256, options).fitted, exact,
-                  MapContent::OneLayer, CullMode::Solids);
+      const std::string what = std::string(name) + " " + windowFitName(options.fit) + " " + warpName(options.warp) +
+                               " " + std::to_string(options.cascades);
+      const DrawnMap drawn = drawMap(session, passes.renderers, fitMap(session, map, exact, 256, options).fitted, exact,
+                                     MapContent::OneLayer, CullMode::Solids);
       const Judged none = judge(session, passes, drawn, exact, methodFor(session, {}, findBias("none")));
       EXPECT_GT(none.labels.count(Label::Acne), exact.receivers.scored / 50) << what;
-      const Judged adaptive =
-          judge(session, passes, drawn, exact, methodFor(session, {}, findBias("adaptive")));
+      const Judged adaptive = judge(session, passes, drawn, exact, methodFor(session, {}, findBias("adaptive")));
       EXPECT_EQ(adaptive.labels.count(Label::Acne), 0u) << what;
       EXPECT_EQ(adaptive.labels.count(Label::Leak), 0u) << what;
       EXPECT_EQ(adaptive.labels.count(Label::Uncovered), 0u) << what;
@@ -59,8 +56,7 @@ TEST(FitAndWarp, AResultSaysHowItsMapWasFitted) {
   options.repeats = 1;
   const auto rowOf = [&](const MapOptions& mapOptions) {
     options.mapOptions = mapOptions;
-    return Json::parse(resultsJson(session, setup, compare(session, options), "gnomon compare"))
-        .at("rows")[0];
+    return Json::parse(resultsJson(session, setup, compare(session, options), "gnomon compare")).at("rows")[0];
   };
   const Json warped = rowOf({.fit = WindowFit::Tight, .warp = Warp::Lispsm});
   EXPECT_EQ(warped.at("params").at("fit"), "tight");
@@ -81,8 +77,7 @@ TEST(DensityPicture, RisesInLightnessWithTheDensityAndMarksWhatIsUncovered) {
   receivers.states.assign(600, PixelState::Scored);
   receivers.samples.resize(600);
   std::vector<float> densities;
-  for (int i = 0; i < 600; ++i)
-    densities.push_back(std::pow(10.0f, 1.0f + 3.0f * static_cast<float>(i) / 599.0f));
+  for (int i = 0; i < 600; ++i) densities.push_back(std::pow(10.0f, 1.0f + 3.0f * static_cast<float>(i) / 599.0f));
   densities[300] = -1.0f;
   const Image8 picture = densityPicture(receivers, densities, "title");
   int before = -1;

@@ -1,5 +1,5 @@
 // FLIP against the values of the authors' own program, LDR-FLIP 1.6 at its default viewing conditions.
-#include "lab/flip.h"
+#include "lab/picture/flip.h"
 #include "base/error.h"
 #include "base/file.h"
 
@@ -65,8 +65,7 @@ TEST(Flip, DoesNotTellReferenceFromTest) {
   const Image8 b = load("ramp");
   const Flip forth = computeFlip(a, b);
   const Flip back = computeFlip(b, a);
-  for (size_t i = 0; i < forth.map.values.size(); ++i)
-    ASSERT_NEAR(forth.map.values[i], back.map.values[i], 1e-6f);
+  for (size_t i = 0; i < forth.map.values.size(); ++i) ASSERT_NEAR(forth.map.values[i], back.map.values[i], 1e-6f);
 }
 
 TEST(Flip, BlackAgainstWhiteIsNearlyOneAndGreyNeedsOneChannel) {

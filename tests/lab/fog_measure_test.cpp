@@ -1,7 +1,7 @@
 // What a medium's rows are judged by, on numbers small enough to work out by hand.
-#include "lab/fog_measure.h"
-#include "lab/fog_motion.h"
-#include "lab/fog_pictures.h"
+#include "lab/fog/fog_measure.h"
+#include "lab/fog/fog_motion.h"
+#include "lab/fog/fog_pictures.h"
 
 #include "base/error.h"
 

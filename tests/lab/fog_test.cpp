@@ -1,13 +1,13 @@
 // Light shafts run through the lab: their errors, their files, and a reference that is traced once.
-#include "lab/fog.h"
+#include "lab/fog/fog.h"
 
 #include "base/error.h"
 #include "base/file.h"
-#include "lab/fog_reference.h"
-#include "lab/fog_report.h"
-#include "lab/maps.h"
-#include "lab/report.h"
-#include "lab/results.h"
+#include "lab/compare/results.h"
+#include "lab/core/maps.h"
+#include "lab/fog/fog_reference.h"
+#include "lab/fog/fog_report.h"
+#include "lab/page/report.h"
 #include "tests/base/temporary_folder.h"
 
 #include <cstdlib>
@@ -30,13 +30,12 @@ class FogTest : public ::testing::Test {
   Session open(const SetupOptions& setup) { return {{.validation = true, .messageSink = &messages_}, setup}; }
 
   static FogOptions options() {
-    FogOptions options{
-        .integrators = {Integrator::Runs, Integrator::Bits, Integrator::Popcount, Integrator::March},
-        .steps = {8, 64},
-        .marchMap = parseMaps("cube").front(),
-        .mapSide = 512,
-        .truth = true,
-        .repeats = 1};
+    FogOptions options{.integrators = {Integrator::Runs, Integrator::Bits, Integrator::Popcount, Integrator::March},
+                       .steps = {8, 64},
+                       .marchMap = parseMaps("cube").front(),
+                       .mapSide = 512,
+                       .truth = true,
+                       .repeats = 1};
     options.map.volumeSize = {.alpha = 256, .theta = 256, .phi = 256};
     return options;
   }
@@ -76,12 +75,11 @@ TEST_F(FogTest, BitsComeCloserThanAMarchAndFilesSaySo) {
   const std::string text = fogJson(session, how, result, "gnomon fog grate");
   const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json.at("schema"), kResultsVersion);
-  for (const char* key :
-       {"gnomon", "scene", "camera", "lights", "medium", "reference", "media", "equal_terms"})
+  for (const char* key : {"gnomon", "scene", "camera", "lights", "medium", "reference", "media", "equal_terms"})
     EXPECT_TRUE(json.contains(key)) << key;
   for (const auto& row : json.at("media")) {
-    for (const char* key : {"integrator", "steps", "rel_rmse", "rel_rmse_99", "flip", "build_ms",
-                            "integrate_ms", "map_ms", "table_ms", "map", "params", "flicker"})
+    for (const char* key : {"integrator", "steps", "rel_rmse", "rel_rmse_99", "flip", "build_ms", "integrate_ms",
+                            "map_ms", "table_ms", "map", "params", "flicker"})
       EXPECT_TRUE(row.contains(key)) << key;
     EXPECT_DOUBLE_EQ(row.at("build_ms").get<double>(),
                      row.at("map_ms").get<double>() + row.at("table_ms").get<double>());
@@ -129,8 +127,7 @@ TEST_F(FogTest, LightsAddUpInEveryWay) {
 TEST_F(FogTest, AThickerMediumDimsWhatStandsInIt) {
   const Session session = open({.scene = "grate", .size = "32"});
   Passes passes(session.device(), session.view());
-  FogMedium thin{.sigmaS = glm::vec3(0.0f)},
-      thick{.sigmaS = glm::vec3(0.1f), .sigmaA = glm::vec3(0.0f, 0.1f, 0.0f)};
+  FogMedium thin{.sigmaS = glm::vec3(0.0f)}, thick{.sigmaS = glm::vec3(0.1f), .sigmaA = glm::vec3(0.0f, 0.1f, 0.0f)};
   const FogView clear = lookIntoFog(session, passes, fogLights(session), thin);
   const FogView foggy = lookIntoFog(session, passes, fogLights(session), thick);
   const Light& light = clear.lights.front();
@@ -138,8 +135,7 @@ TEST_F(FogTest, AThickerMediumDimsWhatStandsInIt) {
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 32; ++x) {
       const auto pixel = static_cast<size_t>(y * 32 + x);
-      const glm::dvec3 posW =
-          glm::dvec3(session.view().eyeW) + pixelRay(session.view(), x, y).dir * clear.ends[pixel];
+      const glm::dvec3 posW = glm::dvec3(session.view().eyeW) + pixelRay(session.view(), x, y).dir * clear.ends[pixel];
       const double path = clear.ends[pixel] + glm::length(posW - glm::dvec3(light.positionW));
       for (int c = 0; c < 3; ++c) {
         const float before = clear.surface.at(x, y)[c], after = foggy.surface.at(x, y)[c];
@@ -171,8 +167,7 @@ TEST_F(FogTest, AReferenceIsTracedOnceAndAgainWhereAnythingChanges) {
   EXPECT_EQ(kept.reference.worstChange, traced.reference.worstChange);
 
   const gpu::Hash128 key = referenceKey(session, view, how);
-  const auto differs = [&](const char* what,
-                           const std::function<void(FogView&, MediaReferenceOptions&)>& change) {
+  const auto differs = [&](const char* what, const std::function<void(FogView&, MediaReferenceOptions&)>& change) {
     FogView other = view;
     MediaReferenceOptions otherHow = how;
     change(other, otherHow);
@@ -233,8 +228,7 @@ TEST_F(FogTest, AMovingLightFlickersLessInTheReferenceThanInAMarch) {
       EXPECT_TRUE(fs::exists(how.outDir / "frames" / name / frame)) << name << frame;
   EXPECT_NE(result.motionNote.find("PNG"), std::string::npos);
   // The light has moved in the last frame, and not in the first.
-  EXPECT_EQ(readFile(how.outDir / "frames" / "runs" / "0000.png"),
-            readFile(how.outDir / "media" / "runs.beauty.png"));
+  EXPECT_EQ(readFile(how.outDir / "frames" / "runs" / "0000.png"), readFile(how.outDir / "media" / "runs.beauty.png"));
   EXPECT_NE(readFile(how.outDir / "frames" / "runs" / "0000.png"),
             readFile(how.outDir / "frames" / "runs" / "0002.png"));
 }
@@ -242,8 +236,7 @@ TEST_F(FogTest, AMovingLightFlickersLessInTheReferenceThanInAMarch) {
 TEST_F(FogTest, ALightWithoutAPlaceIsRefused) {
   const Session session = open({.scene = "slope", .size = "8"});
   ASSERT_FALSE(session.scene().lights.empty());
-  const Session atEye =
-      open({.scene = "grate", .light = "0,1,5", .camera = "eye:0,1,5,target:0,0,0", .size = "8"});
+  const Session atEye = open({.scene = "grate", .light = "0,1,5", .camera = "eye:0,1,5,target:0,0,0", .size = "8"});
   Passes passes(atEye.device(), atEye.view());
   EXPECT_THROW(lookIntoFog(atEye, passes, fogLights(atEye), {}), WorldError);
 }

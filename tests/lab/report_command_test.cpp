@@ -1,5 +1,5 @@
 // The command that makes one row again.
-#include "lab/report_command.h"
+#include "lab/page/report_command.h"
 
 #include <gtest/gtest.h>
 
@@ -17,18 +17,14 @@ ReportRow rowOf(const std::string& bias) {
 
 TEST(RowCommand, KeepsTheSceneAndDropsOtherMethodsAndOutputs) {
   ReportRow row = rowOf("slope");
-  row.params = {{"factor", "2.5", true},
-                {"offset", "0.001", true},
-                {"map_content", "one layer", false},
-                {"cull", "none", false}};
-  EXPECT_EQ(
-      rowCommand(
-          "gnomon compare 'my scene.glb' --light 1,2,3 --biases all --maps=spot,directional --tune -o "
-          "/tmp/out --json r.json --fail-if 'acne>0.1%' --constant-offset 0.5 --map-texels 9999 --size 64 "
-          "--quiet",
-          row),
-      "gnomon compare 'my scene.glb' --light 1,2,3 --size 64 --maps spot --biases slope --map-size 512 "
-      "--slope-factor 2.5 --slope-offset 0.001 --cull none");
+  row.params = {
+      {"factor", "2.5", true}, {"offset", "0.001", true}, {"map_content", "one layer", false}, {"cull", "none", false}};
+  EXPECT_EQ(rowCommand("gnomon compare 'my scene.glb' --light 1,2,3 --biases all --maps=spot,directional --tune -o "
+                       "/tmp/out --json r.json --fail-if 'acne>0.1%' --constant-offset 0.5 --map-texels 9999 --size 64 "
+                       "--quiet",
+                       row),
+            "gnomon compare 'my scene.glb' --light 1,2,3 --size 64 --maps spot --biases slope --map-size 512 "
+            "--slope-factor 2.5 --slope-offset 0.001 --cull none");
 }
 
 TEST(RowCommand, TheAdaptiveMethodsShareAKnobAndAFilterIsNamed) {

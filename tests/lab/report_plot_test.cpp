@@ -1,5 +1,5 @@
 // Where the plot's marks stand, what is on its front, and that its labels stay apart.
-#include "lab/report_plot.h"
+#include "lab/page/report_plot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 namespace gnomon {
 namespace {
 
-const std::vector<PlotItem> kItems = {
-    {"none", 10.0, 0.4}, {"constant", 11.0, 0.002}, {"slope", 12.0, 0.001},   {"cosine", 11.5, 0.05},
-    {"dual", 20.0, 0.0}, {"midpoint", 21.0, 0.0},   {"adaptive", 12.0, 0.004}};
+const std::vector<PlotItem> kItems = {{"none", 10.0, 0.4},      {"constant", 11.0, 0.002}, {"slope", 12.0, 0.001},
+                                      {"cosine", 11.5, 0.05},   {"dual", 20.0, 0.0},       {"midpoint", 21.0, 0.0},
+                                      {"adaptive", 12.0, 0.004}};
 
 TEST(Plot, DearerIsFurtherRightAndWorseFurtherUp) {
   const Plot plot = layOutPlot(kItems, 980, 440);
@@ -31,8 +31,7 @@ TEST(Plot, EachDecadeIsOneStepAndZeroLiesBelow) {
   ASSERT_EQ(plot.errorTicks.size(), 4u);  // 0.1 % to 100 %
   EXPECT_EQ(plot.errorTicks.front().text, "0.1 %");
   EXPECT_EQ(plot.errorTicks.back().text, "100 %");
-  EXPECT_DOUBLE_EQ(plot.errorTicks[0].at - plot.errorTicks[1].at,
-                   plot.errorTicks[2].at - plot.errorTicks[3].at);
+  EXPECT_DOUBLE_EQ(plot.errorTicks[0].at - plot.errorTicks[1].at, plot.errorTicks[2].at - plot.errorTicks[3].at);
   EXPECT_DOUBLE_EQ(plot.marks[2].y, plot.errorTicks[0].at);  // slope: 0.001
   EXPECT_TRUE(plot.hasZero);
   EXPECT_GT(plot.zeroAt, plot.errorTicks.front().at + 10.0);
@@ -42,8 +41,7 @@ TEST(Plot, EachDecadeIsOneStepAndZeroLiesBelow) {
 TEST(Plot, TheFrontHoldsWhatNothingCheaperMatches) {
   const Plot plot = layOutPlot(kItems, 980, 440);
   const std::vector<bool> expected = {true, true, true, false, true, false, false};
-  for (size_t i = 0; i < expected.size(); ++i)
-    EXPECT_EQ(plot.marks[i].onFront, expected[i]) << kItems[i].label;
+  for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(plot.marks[i].onFront, expected[i]) << kItems[i].label;
   EXPECT_EQ(std::count(plot.frontPath.begin(), plot.frontPath.end(), 'V'), 3);
 }
 
@@ -84,8 +82,7 @@ TEST(Plot, LabelsStayApartAndWithinTheFrame) {
       EXPECT_GE(span(a).first, plot.left);
       EXPECT_LE(span(a).second, plot.right);
       for (size_t b = 0; b < a; ++b) {
-        if (!plot.marks[b].labelled || std::abs(plot.marks[a].labelY - plot.marks[b].labelY) >= 13.0)
-          continue;
+        if (!plot.marks[b].labelled || std::abs(plot.marks[a].labelY - plot.marks[b].labelY) >= 13.0) continue;
         EXPECT_TRUE(span(a).first >= span(b).second || span(b).first >= span(a).second)
             << items[a].label << " on " << items[b].label;
       }

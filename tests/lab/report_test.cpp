@@ -1,5 +1,5 @@
 // The page: whole, self-contained, and alive whatever results.json and its folder hold.
-#include "lab/report.h"
+#include "lab/page/report.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
@@ -49,8 +49,7 @@ class ReportTest : public ::testing::Test {
 std::vector<std::string> allMatches(const std::string& text, const char* pattern, int group = 1) {
   std::vector<std::string> found;
   const std::regex regex(pattern);
-  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
-    found.push_back((*it)[group]);
+  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it) found.push_back((*it)[group]);
   return found;
 }
 
@@ -234,8 +233,8 @@ TEST_F(ReportTest, SaysWhichPicturesAreMissing) {
   expectSound(html);
   EXPECT_NE(html.find("6 pictures named in results.json cannot be read"), std::string::npos);
   for (const std::string& path :
-       {std::string("spot/second_depth.png"), std::string("spot/dual.labels.png"),
-        std::string("spot/none.beauty.png"), std::string("spot/none.labels.png"), around, absolute})
+       {std::string("spot/second_depth.png"), std::string("spot/dual.labels.png"), std::string("spot/none.beauty.png"),
+        std::string("spot/none.labels.png"), around, absolute})
     EXPECT_NE(html.find(path), std::string::npos) << path;
 }
 
@@ -293,24 +292,17 @@ TEST_F(ReportTest, NamesTheFieldThatIsWrong) {
     EXPECT_EQ(line.find('\n'), std::string::npos);
     return line;
   };
-  EXPECT_NE(after([](Json& j) { j["schema"] = 4; }).find("has schema 4; this gnomon reads 1 to 3"),
-            std::string::npos);
+  EXPECT_NE(after([](Json& j) { j["schema"] = 4; }).find("has schema 4; this gnomon reads 1 to 3"), std::string::npos);
   EXPECT_NE(after([](Json& j) { j.erase("schema"); }).find("schema is missing"), std::string::npos);
   EXPECT_NE(after([](Json& j) { j = 5; }).find("must be an object"), std::string::npos);
-  EXPECT_NE(after([](Json& j) { j["rows"][2].erase("bias"); }).find("rows[2].bias is missing"),
-            std::string::npos);
-  EXPECT_NE(after([](Json& j) { j["rows"][2]["acne"] = -1; }).find("rows[2].acne must be a whole"),
-            std::string::npos);
+  EXPECT_NE(after([](Json& j) { j["rows"][2].erase("bias"); }).find("rows[2].bias is missing"), std::string::npos);
+  EXPECT_NE(after([](Json& j) { j["rows"][2]["acne"] = -1; }).find("rows[2].acne must be a whole"), std::string::npos);
   EXPECT_NE(after([](Json& j) { j["rows"] = "x"; }).find("rows must be a list"), std::string::npos);
-  EXPECT_NE(after([](Json& j) { j["camera"]["width"] = 0; }).find("camera must have a width"),
+  EXPECT_NE(after([](Json& j) { j["camera"]["width"] = 0; }).find("camera must have a width"), std::string::npos);
+  EXPECT_NE(after([](Json& j) { j["rows"][0]["worst_acne"]["size"] = 0; }).find("worst_acne.size"), std::string::npos);
+  EXPECT_NE(after([](Json& j) { j["rows"][0]["worst_acne"]["x"] = 99999; }).find("at most 16384"), std::string::npos);
+  EXPECT_NE(after([](Json& j) { j["rows"][0]["pictures"]["labels"] = 3; }).find("pictures.labels must be a text"),
             std::string::npos);
-  EXPECT_NE(after([](Json& j) { j["rows"][0]["worst_acne"]["size"] = 0; }).find("worst_acne.size"),
-            std::string::npos);
-  EXPECT_NE(after([](Json& j) { j["rows"][0]["worst_acne"]["x"] = 99999; }).find("at most 16384"),
-            std::string::npos);
-  EXPECT_NE(
-      after([](Json& j) { j["rows"][0]["pictures"]["labels"] = 3; }).find("pictures.labels must be a text"),
-      std::string::npos);
   EXPECT_NE(after([](Json& j) { j["rows"][0]["agree"] = 1000000; }).find("rows[0].agree must be at most"),
             std::string::npos);
 }

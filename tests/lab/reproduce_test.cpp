@@ -1,5 +1,5 @@
 // Both papers end to end, small: every figure, table and verdict is there, in the results and on the page.
-#include "lab/reproduce.h"
+#include "lab/paper/reproduce.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "tests/base/temporary_folder.h"
@@ -29,8 +29,7 @@ class ReproduceTest : public ::testing::Test {
     for (const Figure& figure : result.figures) {
       EXPECT_NE(page.find("id=\"figure-" + figure.id + "-title\""), std::string::npos) << figure.id;
       for (size_t i = 0; i < figure.panels.size(); ++i) {
-        EXPECT_NE(page.find("id=\"panel-" + figure.id + "-" + std::to_string(i + 1) + "\""),
-                  std::string::npos);
+        EXPECT_NE(page.find("id=\"panel-" + figure.id + "-" + std::to_string(i + 1) + "\""), std::string::npos);
         pictures += figure.panels[i].picture.empty() ? 0 : 1;
       }
       EXPECT_TRUE(!figure.panels.empty() || !figure.svg.empty()) << figure.id;
@@ -69,8 +68,7 @@ TEST_F(ReproduceTest, WeiskopfAndErtl) {
   EXPECT_EQ(result.figures[2].panels.size(), 4u);
   EXPECT_EQ(result.tables.front().rows.size(), 6u);
   EXPECT_TRUE(result.leftOut.empty());
-  for (const JudgedClaim& judged : result.claims)
-    EXPECT_NE(judged.verdict, ClaimVerdict::NotRun) << judged.claim.says;
+  for (const JudgedClaim& judged : result.claims) EXPECT_NE(judged.verdict, ClaimVerdict::NotRun) << judged.claim.says;
   // What no scale changes: an endless offset is no offset.
   EXPECT_EQ(result.numbers.at("error(dual, endless offset)"), result.numbers.at("error(midpoint)"));
   EXPECT_GT(result.numbers.at("leak(5d)"), 10 * result.numbers.at("leak(5f)"));
@@ -86,8 +84,7 @@ TEST_F(ReproduceTest, DouAndOthers) {
   const Reproduction result = run("dou2014");
   EXPECT_EQ(figuresOf(result), (std::set<std::string>{"1", "6", "7", "8", "9", "10", "12", "13"}));
   EXPECT_TRUE(result.leftOut.empty());
-  for (const JudgedClaim& judged : result.claims)
-    EXPECT_NE(judged.verdict, ClaimVerdict::NotRun) << judged.claim.says;
+  for (const JudgedClaim& judged : result.claims) EXPECT_NE(judged.verdict, ClaimVerdict::NotRun) << judged.claim.says;
   // The printed equation 6 puts every depth behind the far end: whatever is lit turns dark.
   EXPECT_GT(result.numbers.at("depth(equation 6, near)"), 1.0);
   EXPECT_GT(result.numbers.at("depth(equation 6, far)"), 1.0);
@@ -106,8 +103,7 @@ TEST_F(ReproduceTest, OnAUsersSceneWhatItLacksIsLeftOutAndSaid) {
   // One camera, which does not turn its back on the lamp.
   const Reproduction result = run("dou2014", "slope");
   for (const char* what : {"figure 6", "figure 7", "figure 13"})
-    EXPECT_NE(reproductionText(result).find(std::string("left out            ") + what + ": "),
-              std::string::npos)
+    EXPECT_NE(reproductionText(result).find(std::string("left out            ") + what + ": "), std::string::npos)
         << reproductionText(result);
   EXPECT_EQ(figuresOf(result), (std::set<std::string>{"1", "8", "9", "10", "12"}));
   for (const JudgedClaim& judged : result.claims)

@@ -1,9 +1,9 @@
 // Where layers meet, a map is no worse than elsewhere: pixels within two texels of a paraboloid's rim or of a
 // cube's edge against the others, and against themselves with the seam turned away.
-#include "lab/compare.h"
-#include "lab/map_set.h"
-#include "lab/maps.h"
-#include "shadow/filtered_truth.h"
+#include "judge/filtered_truth.h"
+#include "lab/compare/compare.h"
+#include "lab/core/map_set.h"
+#include "lab/core/maps.h"
 
 #include <algorithm>
 #include <array>
@@ -57,8 +57,7 @@ class Seams {
     std::vector<double> texels(exact_.receivers.states.size(), INFINITY);
     for (size_t i = 0; i < texels.size(); ++i) {
       if (exact_.receivers.states[i] != PixelState::Scored) continue;
-      const glm::vec3 posL =
-          glsl::lightFromWorld(fitted.frame, glm::vec3(exact_.receivers.samples[i].positionW));
+      const glm::vec3 posL = glsl::lightFromWorld(fitted.frame, glm::vec3(exact_.receivers.samples[i].positionW));
       const glm::dvec2 fromCenter = glm::dvec2(glsl::mapProject(fitted.map, posL).uv) - 0.5;
       const double reach = fitted.map.kind == glsl::kMapParaboloid
                                ? glm::length(fromCenter)
@@ -80,8 +79,8 @@ class Seams {
     const Judged judged = judge(session_, passes_, map, exact_, method);
     Scores scores{.labels = judged.labels, .squares = {}};
     for (const Filter& filter : filters()) {
-      const std::vector<float> truth = computeFilteredTruth(session_.tracer(), exact_.light, exact_.receivers,
-                                                            exact_.truth, fit.fitted, filter.id);
+      const std::vector<float> truth =
+          computeFilteredTruth(session_.tracer(), exact_.light, exact_.receivers, exact_.truth, fit.fitted, filter.id);
       std::vector<float> visibility = filteredVisibility(session_, passes_, map, exact_, method, filter.id);
       for (const size_t pixel : judged.edgeOn) visibility[pixel] = truth[pixel];
       std::vector<double>& squares = scores.squares.emplace_back(truth.size());
@@ -138,13 +137,12 @@ TEST_P(SeamsTest, ShowNoMoreErrorThanElsewhere) {
       for (size_t f = 0; f < filters().size(); ++f) {
         const auto [at, elsewhere] = seams.zones(scores, f, distance);
         const Zone same = seams.zones(turned, f, distance)[0];
-        const std::string what =
-            fmt::format("{} {} {}", fit == &cube ? "cube" : "paraboloid", bias, filters()[f].name);
+        const std::string what = fmt::format("{} {} {}", fit == &cube ? "cube" : "paraboloid", bias, filters()[f].name);
         fmt::print(
             "{:<32} {:6} pixels at the seam: bias error {:.3f}% (elsewhere {:.3f}%, turned away "
             "{:.3f}%), rmse {:.4f} ({:.4f}, {:.4f})\n",
-            what, at.pixels, 100.0 * at.biasError(), 100.0 * elsewhere.biasError(), 100.0 * same.biasError(),
-            at.rmse(), elsewhere.rmse(), same.rmse());
+            what, at.pixels, 100.0 * at.biasError(), 100.0 * elsewhere.biasError(), 100.0 * same.biasError(), at.rmse(),
+            elsewhere.rmse(), same.rmse());
         EXPECT_GT(at.pixels, 300u) << what;
         const auto pixels = static_cast<double>(at.pixels);
         expectNoMore(static_cast<double>(at.wrong), pixels * elsewhere.biasError(), what);

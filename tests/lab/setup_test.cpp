@@ -1,9 +1,9 @@
 // Words of the command line to a light and a camera.
-#include "lab/setup.h"
+#include "lab/core/setup.h"
 #include "base/error.h"
-#include "lab/maps.h"
+#include "lab/core/maps.h"
+#include "planar/planar_map.h"
 #include "scene/generate.h"
-#include "shadow/planar_map.h"
 
 #include <functional>
 
@@ -45,16 +45,13 @@ TEST_F(SetupTest, ACameraFromTheCommandLineLooksWhereItIsTold) {
 }
 
 TEST_F(SetupTest, MalformedCamerasAndLightsAreRefused) {
-  for (const char* text :
-       {"eye:1,2,target:0,0,0", "eye:1,2,3", "eye:1,2,3,target:1,2,3", "eye:a,b,c,target:0,0,0",
-        "eye:1,2,3,target:0,0,0,fov:200", "eye:1,2,3,target:0,0,0,roll:2"}) {
+  for (const char* text : {"eye:1,2,target:0,0,0", "eye:1,2,3", "eye:1,2,3,target:1,2,3", "eye:a,b,c,target:0,0,0",
+                           "eye:1,2,3,target:0,0,0,fov:200", "eye:1,2,3,target:0,0,0,roll:2"}) {
     options_.camera = text;
     EXPECT_THROW(chooseCamera(options_, tracer_), UsageError) << text;
   }
   options_.light = "moon";
-  EXPECT_NE(messageOf([&] {
-              chooseLight(options_, tracer_, spotParameterization());
-            }).find(scene_.lights.front().name),
+  EXPECT_NE(messageOf([&] { chooseLight(options_, tracer_, spotParameterization()); }).find(scene_.lights.front().name),
             std::string::npos);
   options_.light = "1,2,nan";
   EXPECT_THROW(chooseLight(options_, tracer_, spotParameterization()), WorldError);
@@ -74,9 +71,8 @@ TEST_F(SetupTest, EveryMapFindsALightItCanTake) {
 TEST_F(SetupTest, ADirectionalLightIsNoSpot) {
   scene_.lights = {Light{.name = "sun", .type = LightType::Directional}};
   options_.light = "sun";
-  EXPECT_NE(
-      messageOf([&] { chooseLight(options_, tracer_, spotParameterization()); }).find("--maps directional"),
-      std::string::npos);
+  EXPECT_NE(messageOf([&] { chooseLight(options_, tracer_, spotParameterization()); }).find("--maps directional"),
+            std::string::npos);
 }
 
 TEST_F(SetupTest, WithoutLightsOneStandsAboveTheScene) {

@@ -1,5 +1,5 @@
 // --fail-if: what is accepted, and which rows cross.
-#include "lab/threshold.h"
+#include "lab/compare/threshold.h"
 #include "base/error.h"
 
 #include <gtest/gtest.h>

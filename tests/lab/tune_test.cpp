@@ -1,9 +1,9 @@
 // The search for the best knob: what it counts is what the labels count, and nothing it has seen is better
 // than what it says.
-#include "lab/tune.h"
-#include "lab/compare.h"
-#include "lab/maps.h"
-#include "lab/robustness.h"
+#include "lab/compare/tune.h"
+#include "lab/compare/compare.h"
+#include "lab/compare/robustness.h"
+#include "lab/core/maps.h"
 
 #include <cmath>
 
@@ -19,8 +19,7 @@ class TuneTest : public ::testing::Test {
         passes_(session_.device(), session_.view()),
         spot_(*parseMaps("spot").front()),
         exact_(computeExact(session_, spot_)),
-        maps_(session_, passes_.renderers, fitMap(session_, spot_, exact_, 64, {}).fitted, exact_,
-              CullMode::Solids),
+        maps_(session_, passes_.renderers, fitMap(session_, spot_, exact_, 64, {}).fitted, exact_, CullMode::Solids),
         trial_(session_, passes_, exact_, maps_) {}
 
   Method method(const char* name) { return methodFor(session_, {}, findBias(name)); }

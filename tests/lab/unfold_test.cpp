@@ -1,5 +1,5 @@
 // The unfolded picture is of one piece, and texels' solid angles are those of the sphere.
-#include "lab/unfold.h"
+#include "lab/picture/unfold.h"
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
 
@@ -22,8 +22,7 @@ Image8 directions(const FittedMap& fitted) {
   for (int layer = 0; layer < fitted.map.layerCount; ++layer) {
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
-        const glm::vec3 dir =
-            glsl::mapTexelRay(fitted.map, layer, glsl::mapTexelCenter(fitted.map, {x, y})).dir;
+        const glm::vec3 dir = glsl::mapTexelRay(fitted.map, layer, glsl::mapTexelCenter(fitted.map, {x, y})).dir;
         for (int c = 0; c < 3; ++c)
           image.at(layer * side + x, y)[c] = static_cast<uint8_t>(std::lround(127.0f + 127.0f * dir[c]));
       }

@@ -1,8 +1,8 @@
 // The shadow volume as one more map of the comparison.
 #include "base/file.h"
-#include "lab/compare.h"
-#include "lab/maps.h"
-#include "lab/results.h"
+#include "lab/compare/compare.h"
+#include "lab/compare/results.h"
+#include "lab/core/maps.h"
 #include "tests/gpu_fixture.h"
 
 #include <algorithm>
@@ -47,8 +47,8 @@ TEST(VolumeCompare, ItsRowsHaveTheBiasesThatMeanSomethingAndAddUp) {
   const gpu::TemporaryFolder folder;
   const SetupOptions setup{.scene = "contact", .size = "96x72"};
   const Session session({.validation = true}, setup);
-  for (const auto& [source, fit] : {std::pair(VolumeSource::Direct, VolumeFit::Frustum),
-                                    std::pair(VolumeSource::Resample, VolumeFit::Full)}) {
+  for (const auto& [source, fit] :
+       {std::pair(VolumeSource::Direct, VolumeFit::Frustum), std::pair(VolumeSource::Resample, VolumeFit::Full)}) {
     CompareOptions options = optionsWith(source, fit);
     options.outDir = folder.path();
     const Json json = Json::parse(runTwiceEqual(session, setup, options));

@@ -1,5 +1,5 @@
 // Slices show the voxels they cut, and the volume's coordinates over a picture meet at the light.
-#include "lab/volume_pictures.h"
+#include "lab/volume/volume_pictures.h"
 
 #include "scene/gbuffer.h"
 

@@ -1,5 +1,5 @@
 // A session's volume, validated: sound as it is, reported in full, and unsound where any part says so.
-#include "lab/volume_report.h"
+#include "lab/volume/volume_report.h"
 #include "tests/gpu_fixture.h"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // Weiskopf and Ertl, "Shadow Mapping Based on Dual Depth Layers", 2003, figure 5, in counts: an L-shaped
 // block under a directional light, on a heavily undersampled map.
-#include "lab/compare.h"
-#include "lab/maps.h"
+#include "lab/compare/compare.h"
+#include "lab/core/maps.h"
 
 #include <gtest/gtest.h>
 

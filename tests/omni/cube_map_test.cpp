@@ -96,9 +96,9 @@ TEST(CubeMap, DepthGrowsFromZeroToOneAndItsSlopeIsItsDerivative) {
         // Analytic in double: 1 / (f - n), or f n / (f - n) / m^2 times the cosine to the axis.
         const double n = fitted.map.zNear, f = fitted.map.zFar;
         const vec3 stm = cubeFaceFromLight(layer, posL);
-        const double expected = depth == CubeDepth::Radial ? 1.0 / (f - n)
-                                                           : f * n / (f - n) / (double(stm.z) * stm.z) *
-                                                                 cubeFaceFromLight(layer, ray.dir).z;
+        const double expected = depth == CubeDepth::Radial
+                                    ? 1.0 / (f - n)
+                                    : f * n / (f - n) / (double(stm.z) * stm.z) * cubeFaceFromLight(layer, ray.dir).z;
         ASSERT_NEAR(mapDepthSlope(fitted.map, layer, posL, ray.dir) / expected, 1.0, 1e-5);
       }
     }
@@ -121,13 +121,12 @@ TEST(CubeMap, ATapBeyondAnyEdgeLandsOnTheTexelWhoseRayIsNearest) {
         for (int other = 0; other < 6; ++other)
           for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x)
-              best = std::max(
-                  best, dot(wanted, mapTexelRay(fitted.map, other, mapTexelCenter(fitted.map, {x, y})).dir));
+              best =
+                  std::max(best, dot(wanted, mapTexelRay(fitted.map, other, mapTexelCenter(fitted.map, {x, y})).dir));
         const vec3 got = mapTexelRay(fitted.map, found.layer, mapTexelCenter(fitted.map, found.texel)).dir;
         // Nearest up to ties: a direction near the border of two texels may fall to either by the square's
         // shape.
-        ASSERT_LT(std::acos(std::min(1.0f, dot(wanted, got))),
-                  std::acos(std::min(1.0f, best)) * 1.2f + 1e-3f);
+        ASSERT_LT(std::acos(std::min(1.0f, dot(wanted, got))), std::acos(std::min(1.0f, best)) * 1.2f + 1e-3f);
       }
     }
   }

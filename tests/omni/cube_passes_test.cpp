@@ -57,8 +57,7 @@ TEST_F(CubePasses, TheCheckSeesWhatDiffersAndWhatIsFaster) {
   const auto fill = [&](MapImage& map, float depth, std::optional<uint32_t> layer) {
     gpu::Commands commands(device(), "fill");
     for (uint32_t i = 0; i < 6; ++i) {
-      commands.beginRendering(
-          {.depth = &map.depth(), .clearDepth = layer && *layer == i ? 0.25f : depth, .layer = i});
+      commands.beginRendering({.depth = &map.depth(), .clearDepth = layer && *layer == i ? 0.25f : depth, .layer = i});
       commands.endRendering();
     }
     commands.submitAndWait();

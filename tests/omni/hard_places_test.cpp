@@ -54,18 +54,17 @@ class HardPlaces : public gpu::GpuTest {
   // Off by more than a ten-thousandth of the distance.
   TexelErrors errorsOf(const World& world, const FittedMap& fitted) {
     const Layers layers = test::drawLayers(device(), world, fitted, CullMode::None);
-    return test::compareWithRays(
-        world, fitted, layers.z1,
-        {.edgeReach = 0.01, .tolerance = [&](int, glm::ivec2, const SurfaceHit& hit) {
-           return 1e-4 * (hit.distance + fitted.zNear);
-         }});
+    return test::compareWithRays(world, fitted, layers.z1,
+                                 {.edgeReach = 0.01, .tolerance = [&](int, glm::ivec2, const SurfaceHit& hit) {
+                                    return 1e-4 * (hit.distance + fitted.zNear);
+                                  }});
   }
   std::vector<FittedMap> mapsOf(const World& world) {
-    return {test::fitWhole(world, cubeParameterization(), 64),
-            test::fitWhole(world, cubeParameterization(), 64, {.cubeDepth = CubeDepth::Radial}),
-            test::fitWhole(world, paraboloidParameterization(), 111),
-            test::fitWhole(world, paraboloidParameterization(), 111,
-                           rasterized(ParaboloidRaster::Exact, {1.0, 0.2, 0.3}))};
+    return {
+        test::fitWhole(world, cubeParameterization(), 64),
+        test::fitWhole(world, cubeParameterization(), 64, {.cubeDepth = CubeDepth::Radial}),
+        test::fitWhole(world, paraboloidParameterization(), 111),
+        test::fitWhole(world, paraboloidParameterization(), 111, rasterized(ParaboloidRaster::Exact, {1.0, 0.2, 0.3}))};
   }
 };
 
@@ -77,22 +76,19 @@ TEST_F(HardPlaces, ExactDoesNotDependOnTessellationAndVertexDoes) {
       std::vector<float> depths[2];
       for (const int n : {1, 100}) {
         const World world = test::openWorld(device(), floorOf(n), glm::dvec3(0.3, 0.0, 0.1));
-        const FittedMap fitted =
-            test::fitWhole(world, paraboloidParameterization(), 256, rasterized(raster, axis));
+        const FittedMap fitted = test::fitWhole(world, paraboloidParameterization(), 256, rasterized(raster, axis));
         depths[n == 1 ? 0 : 1] = test::drawLayers(device(), world, fitted, CullMode::None).z1;
         if (n == 1) off[raster == ParaboloidRaster::Exact ? 0 : 1] = errorsOf(world, fitted).off;
       }
       for (size_t i = 0; i < depths[0].size(); ++i)
         // Two planes of the same floor, each rounded: 2^-22 of depth times at most the floor's slant of 1/10.
-        different[raster == ParaboloidRaster::Exact ? 0 : 1] +=
-            std::abs(depths[0][i] - depths[1][i]) > 3e-6f ? 1 : 0;
+        different[raster == ParaboloidRaster::Exact ? 0 : 1] += std::abs(depths[0][i] - depths[1][i]) > 3e-6f ? 1 : 0;
     }
     EXPECT_EQ(different[0], 0u);
     EXPECT_EQ(off[0], 0u);
     EXPECT_GT(different[1], 1000u);
     EXPECT_GT(off[1], 1000u);
-    std::printf("vertex: %zu of 131072 texels depend on the tessellation, %zu are off\n", different[1],
-                off[1]);
+    std::printf("vertex: %zu of 131072 texels depend on the tessellation, %zu are off\n", different[1], off[1]);
   }
 }
 
@@ -134,8 +130,7 @@ TEST_F(HardPlaces, TessellatedIsRightToATexelAndVertexIsNot) {
     const World world = test::openWorld(device(), floorOf(1), glm::dvec3(0.3, height, 0.1));
     for (const glm::dvec3 axis : {glm::dvec3(0, -1, 0), glm::dvec3(1, -0.2, 0.1)}) {
       const auto astray = [&](ParaboloidRaster raster, int side) {
-        const FittedMap fitted =
-            test::fitWhole(world, paraboloidParameterization(), side, rasterized(raster, axis));
+        const FittedMap fitted = test::fitWhole(world, paraboloidParameterization(), side, rasterized(raster, axis));
         return texelsAstray(world, fitted, test::drawLayers(device(), world, fitted, CullMode::None).z1);
       };
       EXPECT_EQ(astray(ParaboloidRaster::Exact, 256), 0u) << height;
@@ -168,8 +163,7 @@ TEST_F(HardPlaces, OnASurfaceTheRestIsRight) {
           if (!glsl::mapHoldsTexel(fitted.map, layer, {x, y})) continue;
           const RayD ray = test::rayThrough(fitted, layer, glm::dvec2(x, y) + 0.5);
           if (std::abs(ray.dir.y) < 0.02) continue;  // nearly in the plane
-          const float stored =
-              layers.z1[(static_cast<size_t>(layer) * fitted.map.side + y) * fitted.map.side + x];
+          const float stored = layers.z1[(static_cast<size_t>(layer) * fitted.map.side + y) * fitted.map.side + x];
           if (ray.dir.y < 0.0) {
             ++empty;
             ASSERT_EQ(stored, 1.0f) << fitted.map.kind;
@@ -177,12 +171,10 @@ TEST_F(HardPlaces, OnASurfaceTheRestIsRight) {
           }
           const auto hit = world.tracer->firstHit({ray.origin + ray.dir * 0.01, ray.dir});
           ASSERT_TRUE(hit);
-          const glsl::Ray rayL =
-              glsl::mapTexelRay(fitted.map, layer, glsl::mapTexelCenter(fitted.map, {x, y}));
-          ASSERT_NEAR(
-              glsl::mapDistance(fitted.map, layer, rayL, stored), hit->distance + 0.01,
-              // The near end stands at 1e-5 of the diagonal: hyperbolic depth leaves 2^-24 d^2 / near.
-              fitted.map.kind == glsl::kMapCube ? 6e-8 * 60.0 / fitted.map.zNear : 2e-3)
+          const glsl::Ray rayL = glsl::mapTexelRay(fitted.map, layer, glsl::mapTexelCenter(fitted.map, {x, y}));
+          ASSERT_NEAR(glsl::mapDistance(fitted.map, layer, rayL, stored), hit->distance + 0.01,
+                      // The near end stands at 1e-5 of the diagonal: hyperbolic depth leaves 2^-24 d^2 / near.
+                      fitted.map.kind == glsl::kMapCube ? 6e-8 * 60.0 / fitted.map.zNear : 2e-3)
               << fitted.map.kind;
         }
       }
@@ -209,8 +201,7 @@ TEST_F(HardPlaces, AFarEndTooNearLosesOnlyWhatLiesBehindIt) {
       {makeCubeMap(world.light.positionW, CubeDepth::Radial, near, far, 64, scale),
        makeCubeMap(world.light.positionW, CubeDepth::Radial, near, 40.0, 64, scale)},
       {makeParaboloidMap(world.light.positionW, {0, -1, 0}, ParaboloidRaster::Exact, near, far, 111, scale),
-       makeParaboloidMap(world.light.positionW, {0, -1, 0}, ParaboloidRaster::Exact, near, 40.0, 111,
-                         scale)}};
+       makeParaboloidMap(world.light.positionW, {0, -1, 0}, ParaboloidRaster::Exact, near, 40.0, 111, scale)}};
   for (const auto& [cut, whole] : pairs) {
     const Layers a = test::drawLayers(device(), world, cut, CullMode::None);
     const Layers b = test::drawLayers(device(), world, whole, CullMode::None);

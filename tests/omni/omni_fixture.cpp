@@ -9,8 +9,7 @@ namespace gnomon::test {
 
 namespace {
 
-bool isNearPrimitiveEdge(const Tracer& tracer, const FittedMap& fitted, int layer, glm::ivec2 texel,
-                         double reach) {
+bool isNearPrimitiveEdge(const Tracer& tracer, const FittedMap& fitted, int layer, glm::ivec2 texel, double reach) {
   std::optional<Primitive> seen;
   for (int i = 0; i < 4; ++i) {
     const glm::dvec2 place = glm::dvec2(texel) + 0.5 + reach * glm::dvec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1);
@@ -28,8 +27,8 @@ World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3
   world.scene = std::move(scene);
   world.tracer = std::make_unique<Tracer>(world.scene);
   world.buffers = createSceneBuffers(device, world.scene);
-  const auto positional = std::ranges::find_if(
-      world.scene.lights, [](const Light& light) { return light.type != LightType::Directional; });
+  const auto positional =
+      std::ranges::find_if(world.scene.lights, [](const Light& light) { return light.type != LightType::Directional; });
   world.light = {.type = LightType::Point, .positionW = lightW ? *lightW : glm::dvec3(positional->positionW)};
   return world;
 }
@@ -58,8 +57,7 @@ Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap
 }
 
 RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place) {
-  const glsl::Ray ray =
-      glsl::mapTexelRay(fitted.map, layer, glm::vec2(place / static_cast<double>(fitted.map.side)));
+  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, layer, glm::vec2(place / static_cast<double>(fitted.map.side)));
   const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
                                   glm::dvec3(fitted.frame.backW));
   return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
@@ -86,8 +84,7 @@ TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const s
         double error = INFINITY;
         if (!hit && stored == 1.0f) continue;
         if (hit && stored < 1.0f) {
-          error = std::abs(static_cast<double>(glsl::mapDistance(fitted.map, layer, ray, stored)) -
-                           hit->distance);
+          error = std::abs(static_cast<double>(glsl::mapDistance(fitted.map, layer, ray, stored)) - hit->distance);
           if (error <= check.tolerance(layer, texel, *hit)) continue;
         }
         if (isNearPrimitiveEdge(*world.tracer, fitted, layer, texel, check.edgeReach)) {
@@ -110,8 +107,8 @@ glm::vec3 randomDirection(std::mt19937& random) {
   return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
 
-int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers,
-                  const std::vector<glsl::RoundTripQuery>& queries, const glsl::ShadowMap& map) {
+int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers, const std::vector<glsl::RoundTripQuery>& queries,
+                  const glsl::ShadowMap& map) {
   int64_t worst = 0;
   const auto compare = [&](float a, float b) { worst = std::max(worst, gpu::ulpDistance(a, b)); };
   for (size_t i = 0; i < queries.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "scene/generate.h"
 #include "shadow/map_image.h"
 #include "tests/gpu_fixture.h"
+#include "truth/tracer.h"
 
 #include <functional>
 #include <memory>
@@ -58,7 +59,7 @@ TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const s
 glm::vec3 randomDirection(std::mt19937& random);
 
 // Over all members of all answers, against the CPU's. Layers and `covered` that differ are as bad as can be.
-int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers,
-                  const std::vector<glsl::RoundTripQuery>& queries, const glsl::ShadowMap& map);
+int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers, const std::vector<glsl::RoundTripQuery>& queries,
+                  const glsl::ShadowMap& map);
 
 }  // namespace gnomon::test

@@ -17,8 +17,7 @@ namespace {
 using namespace glsl;
 
 FittedMap paraboloid(int side = 256) {
-  return makeParaboloidMap({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, ParaboloidRaster::Exact, 0.05, 20.0, side,
-                           30.0f);
+  return makeParaboloidMap({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, ParaboloidRaster::Exact, 0.05, 20.0, side, 30.0f);
 }
 
 std::vector<RoundTripQuery> queriesAllAround(const FittedMap& fitted, size_t count) {
@@ -223,8 +222,7 @@ TEST(ParaboloidBound, EnclosesEveryTexelWhoseRayMeetsTheTriangle) {
   EXPECT_GT(across, 250u);
   EXPECT_GT(cut, 250u);
   EXPECT_LT(enclosed, 5 * met / 2);  // and little more than it must
-  std::printf("texels met %zu, enclosed %zu; %zu of %zu triangles in pieces\n", met, enclosed, cut,
-              triangles.size());
+  std::printf("texels met %zu, enclosed %zu; %zu of %zu triangles in pieces\n", met, enclosed, cut, triangles.size());
 }
 
 // Two triangles on both sides of an edge leave no direction between them, and directions within both are
@@ -268,8 +266,7 @@ TEST(SeamAvoidingAxis, TurnsTheSeamAcrossTheReceivers) {
     const dvec3 main = dvec3(test::randomDirection(random));
     std::vector<dvec3> receivers;
     for (int k = 0; k < 5000; ++k)
-      receivers.push_back(dvec3(1, 2, 3) +
-                          4.0 * normalize(main + 0.5 * dvec3(test::randomDirection(random))));
+      receivers.push_back(dvec3(1, 2, 3) + 4.0 * normalize(main + 0.5 * dvec3(test::randomDirection(random))));
     const dvec3 axis = seamAvoidingAxis({1, 2, 3}, receivers);
     EXPECT_GT(dot(axis, main), 0.97);
     EXPECT_EQ(axis, seamAvoidingAxis({1, 2, 3}, receivers));

@@ -34,9 +34,8 @@ std::vector<Kind> kinds() {
 // And what is not exact.
 std::vector<Kind> kindsOfAllRasters() {
   std::vector<Kind> all = kinds();
-  all.push_back({"paraboloid tessellated",
-                 paraboloidParameterization(),
-                 {.paraboloidRaster = ParaboloidRaster::Tessellated}});
+  all.push_back(
+      {"paraboloid tessellated", paraboloidParameterization(), {.paraboloidRaster = ParaboloidRaster::Tessellated}});
   return all;
 }
 
@@ -70,15 +69,13 @@ double rasterTolerance(const World& world, const FittedMap& fitted, int layer, g
   const double m = glm::dvec3(glsl::cubeFaceFromLight(layer, glm::vec3(pointL))).z;
   glm::dvec3 c[3];
   world.tracer->corners(hit.primitive, c);
-  const double longest =
-      std::max({glm::length(c[1] - c[0]), glm::length(c[2] - c[1]), glm::length(c[0] - c[2])});
+  const double longest = std::max({glm::length(c[1] - c[0]), glm::length(c[2] - c[1]), glm::length(c[0] - c[2])});
   const double slenderness = longest * longest / glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
   const double ofInverse = kRound * (16.0 / m + (2.0 + slenderness) * change * fitted.map.side);
   // d distance = m^2 d(1/m) / cos(angle to the axis); the depth itself is stored to 2^-24.
   const double slope = glsl::mapDepthSlope(fitted.map, layer, glm::vec3(pointL), glm::vec3(here.dir));
   const double cosine = std::abs(glm::dot(hit.normalW, here.dir));
-  return ofInverse * m * glm::length(pointL) + 4.0 * kRound / slope +
-         8.0 * kRound * glm::length(pointL) / cosine;
+  return ofInverse * m * glm::length(pointL) + 4.0 * kRound / slope + 8.0 * kRound * glm::length(pointL) / cosine;
 }
 
 // A paraboloid's texel meets the triangle itself: the corners and the texel's ray are rounded by a few 2^-24
@@ -93,8 +90,7 @@ double rayTolerance(const World& world, const FittedMap& fitted, const RayD& ray
   return kRound * (8.0 * largest / cosine + 2.0 * fitted.zFar);
 }
 
-double tolerance(const World& world, const FittedMap& fitted, int layer, glm::ivec2 texel,
-                 const SurfaceHit& hit) {
+double tolerance(const World& world, const FittedMap& fitted, int layer, glm::ivec2 texel, const SurfaceHit& hit) {
   if (fitted.map.kind != glsl::kMapParaboloid) return rasterTolerance(world, fitted, layer, texel, hit);
   return rayTolerance(world, fitted, test::rayThrough(fitted, layer, glm::dvec2(texel) + 0.5), hit);
 }
@@ -107,17 +103,15 @@ TEST_F(RenderedLayers, EveryTexelHoldsTheFirstHitOfItsRay) {
       const FittedMap fitted = test::fitWhole(world, kind.map, paraboloid ? 222 : 128, kind.options);
       const Layers layers = test::drawLayers(device(), world, fitted, CullMode::None);
       // The rasterizer decides on a grid of 1/256 texel; a texel's own ray, to within rounding.
-      const TexelErrors errors =
-          test::compareWithRays(world, fitted, layers.z1,
-                                {.edgeReach = paraboloid ? 1e-3 : 0.02,
-                                 .tolerance = [&](int layer, glm::ivec2 texel, const SurfaceHit& hit) {
-                                   return tolerance(world, fitted, layer, texel, hit);
-                                 }});
+      const TexelErrors errors = test::compareWithRays(
+          world, fitted, layers.z1,
+          {.edgeReach = paraboloid ? 1e-3 : 0.02, .tolerance = [&](int layer, glm::ivec2 texel, const SurfaceHit& hit) {
+             return tolerance(world, fitted, layer, texel, hit);
+           }});
       EXPECT_EQ(errors.off, 0u) << scene << ", " << kind.name << ", worst " << errors.worst << " m";
       EXPECT_LT(errors.atEdges, errors.held / (paraboloid ? 5000 : 1000)) << scene << ", " << kind.name;
       EXPECT_GT(errors.covered, errors.held / 8) << scene;
-      std::printf("%s, %s: %zu of %zu texels at edges differ\n", scene, kind.name, errors.atEdges,
-                  errors.held);
+      std::printf("%s, %s: %zu of %zu texels at edges differ\n", scene, kind.name, errors.atEdges, errors.held);
     }
   }
 }
@@ -129,8 +123,7 @@ TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 64, kind.options);
       for (const CullMode cull : {CullMode::None, CullMode::Solids}) {
         const Layers blended = test::drawLayers(device(), world, fitted, cull, MapContent::TwoLayers);
-        const Layers peeled =
-            test::drawLayers(device(), world, fitted, cull, MapContent::TwoLayers, SecondLayer::Peel);
+        const Layers peeled = test::drawLayers(device(), world, fitted, cull, MapContent::TwoLayers, SecondLayer::Peel);
         EXPECT_EQ(blended.z1, peeled.z1) << scene << ", " << kind.name;
         EXPECT_EQ(blended.z2, peeled.z2) << scene << ", " << kind.name;
         size_t seconds = 0;
@@ -147,8 +140,7 @@ TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
 // What is not sent to a layer changes nothing on it (src/shadow/layer_culling.h).
 TEST_F(RenderedLayers, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
   std::vector<Kind> all = kindsOfAllRasters();
-  all.push_back(
-      {"paraboloid by vertex", paraboloidParameterization(), {.paraboloidRaster = ParaboloidRaster::Vertex}});
+  all.push_back({"paraboloid by vertex", paraboloidParameterization(), {.paraboloidRaster = ParaboloidRaster::Vertex}});
   for (const char* scene : {"crowd:50000", "double-torus", "sheets"}) {
     World world = test::openWorld(device(), openScene(scene), glm::dvec3(0.3, 1.1, -0.2));
     ASSERT_FALSE(world.buffers.partBoundsW.empty()) << scene;

@@ -26,9 +26,7 @@ class AxisParaboloid final : public Parameterization {
   explicit AxisParaboloid(const glm::dvec3& axisW) : axisW_(glm::normalize(axisW)) {}
   const char* name() const override { return "paraboloid with an axis"; }
   const char* sentence() const override { return paraboloidParameterization().sentence(); }
-  int layerCount(const MapOptions& options) const override {
-    return paraboloidParameterization().layerCount(options);
-  }
+  int layerCount(const MapOptions& options) const override { return paraboloidParameterization().layerCount(options); }
   Takes takes(LightType type) const override { return paraboloidParameterization().takes(type); }
   LightModel lightModel(const Light& light, const glm::dvec3& aimW) const override {
     return paraboloidParameterization().lightModel(light, aimW);
@@ -114,8 +112,7 @@ TEST_F(VisibleOmni, TheSeamShowsNoMoreBiasErrorThanElsewhere) {
   const Scene scene = findGeneratedScene("corner")->make();
   const glm::dvec3 lightW(scene.lights.front().positionW);
   // The seam's plane holds the light, the crease of the corner and the middle of a wall.
-  const AxisParaboloid map(
-      glm::cross(glm::dvec3(0.0, 0.0, 2.0) - lightW, glm::dvec3(2.0, 1.5, 0.0) - lightW));
+  const AxisParaboloid map(glm::cross(glm::dvec3(0.0, 0.0, 2.0) - lightW, glm::dvec3(2.0, 1.5, 0.0) - lightW));
   const test::Rendered r = test::render(device(), "corner", map, 512, 256, CullMode::Solids);
   for (const char* bias : {"adaptive", "dual"}) {
     const Scored result = score(r, findBias(bias));
@@ -134,8 +131,8 @@ TEST_F(VisibleOmni, TheSeamShowsNoMoreBiasErrorThanElsewhere) {
     const double expected =
         static_cast<double>(wrongElsewhere) / static_cast<double>(elsewhere) * static_cast<double>(atSeam);
     EXPECT_LE(static_cast<double>(wrongAtSeam), expected + 3.0 * std::sqrt(expected + 1.0)) << bias;
-    std::printf("%s: %zu of %zu wrong at the seam, %zu of %zu elsewhere\n", bias, wrongAtSeam, atSeam,
-                wrongElsewhere, elsewhere);
+    std::printf("%s: %zu of %zu wrong at the seam, %zu of %zu elsewhere\n", bias, wrongAtSeam, atSeam, wrongElsewhere,
+                elsewhere);
   }
 }
 
@@ -143,8 +140,8 @@ TEST_F(VisibleOmni, GoldenPictures) {
   for (const Parameterization* map : kMaps) {
     const test::Rendered r = test::render(device(), "contact", *map, 256, 128, CullMode::Solids);
     for (const char* bias : {"none", "constant", "dual", "adaptive"})
-      test::compareWithGolden(std::string("contact_") + map->name() + "_" + bias,
-                              score(r, findBias(bias)).visibility, 256, isLavapipe());
+      test::compareWithGolden(std::string("contact_") + map->name() + "_" + bias, score(r, findBias(bias)).visibility,
+                              256, isLavapipe());
   }
 }
 

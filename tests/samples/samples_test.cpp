@@ -48,8 +48,7 @@ TEST_P(Samples, DrawsItsPicture) {
 INSTANTIATE_TEST_SUITE_P(All, Samples,
                          ::testing::Values(Sample{"01_point_light_cube", "contact"},
                                            Sample{"02_point_light_paraboloid", "contact"},
-                                           Sample{"03_shadow_volume", "contact"},
-                                           Sample{"04_lamp_in_fog", "grate"}),
+                                           Sample{"03_shadow_volume", "contact"}, Sample{"04_lamp_in_fog", "grate"}),
                          [](const auto& sample) { return std::string(sample.param.name); });
 
 // Of docs/add_a_parameterization.md: it stands in the table beside the cube, covers every pixel, and its
@@ -57,8 +56,7 @@ INSTANTIATE_TEST_SUITE_P(All, Samples,
 TEST(Samples05, AMapOfOnesOwnIsScoredBesideTheCube) {
   const test::TemporaryFolder folder;
   const std::filesystem::path table = folder.path() / "stdout";
-  const std::string command =
-      std::string(GNOMON_SAMPLES_DIR) + "/05_map_of_my_own slope 98304 >" + table.string();
+  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/05_map_of_my_own slope 98304 >" + table.string();
   ASSERT_EQ(std::system(command.c_str()), 0);
   std::istringstream lines(readFile(table));
   int rows = 0;  // ... agree acne leak edge_sh edge_li uncovered bias-error rmse build-ms shade-ms
@@ -85,8 +83,8 @@ TEST(Samples05, AMapOfOnesOwnIsScoredBesideTheCube) {
 
 std::string messageOf(const std::filesystem::path& scene, const std::filesystem::path& folder) {
   const std::filesystem::path messages = folder / "stderr";
-  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/01_point_light_cube " + scene.string() +
-                              " " + (folder / "x.png").string() + " 2>" + messages.string();
+  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/01_point_light_cube " + scene.string() + " " +
+                              (folder / "x.png").string() + " 2>" + messages.string();
   EXPECT_NE(std::system(command.c_str()), 0);
   const std::string message = readFile(messages);
   EXPECT_EQ(std::ranges::count(message, '\n'), 1) << message;

@@ -49,8 +49,7 @@ TEST_P(Generated, meshesAreWellFormed) {
 
 TEST_P(Generated, oneSidedMeshesAreClosedAndSheetsAreOpen) {
   const Scene scene = GetParam().make();
-  for (const Mesh& mesh : scene.meshes)
-    EXPECT_NE(mesh.closed, scene.materials[mesh.material].doubleSided) << mesh.name;
+  for (const Mesh& mesh : scene.meshes) EXPECT_NE(mesh.closed, scene.materials[mesh.material].doubleSided) << mesh.name;
 }
 
 // A triangle wound against its normals would be culled, or shaded from behind.
@@ -60,8 +59,7 @@ TEST_P(Generated, facesAreWoundAsTheirNormalsPoint) {
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
       const glm::dvec3 a(mesh.positions[mesh.indices[i]]), b(mesh.positions[mesh.indices[i + 1]]),
           c(mesh.positions[mesh.indices[i + 2]]);
-      const glm::dvec3 sum = glm::dvec3(mesh.normals[mesh.indices[i]]) +
-                             glm::dvec3(mesh.normals[mesh.indices[i + 1]]) +
+      const glm::dvec3 sum = glm::dvec3(mesh.normals[mesh.indices[i]]) + glm::dvec3(mesh.normals[mesh.indices[i + 1]]) +
                              glm::dvec3(mesh.normals[mesh.indices[i + 2]]);
       ASSERT_GT(glm::dot(glm::cross(b - a, c - a), sum), 0.0) << mesh.name << ", triangle " << i / 3;
     }
@@ -111,8 +109,7 @@ TEST(TriangleCount, atriumIsWithinTwoPercentOfTwentyThousand) {
 
 TEST(TriangleCount, crowdIsWithinFivePercentOfWhatIsAskedFor) {
   for (double wanted : {1e4, 1.3e4, 5e4, 1e5, 3e5, 9.7e5, 1e6, 1.1e6, 7e6, 1.9e7})
-    EXPECT_NEAR(countOf(("crowd:" + std::to_string(static_cast<int>(wanted))).c_str()), wanted,
-                0.05 * wanted);
+    EXPECT_NEAR(countOf(("crowd:" + std::to_string(static_cast<int>(wanted))).c_str()), wanted, 0.05 * wanted);
   EXPECT_NEAR(countOf("crowd"), 1e5, 5e3);
 }
 

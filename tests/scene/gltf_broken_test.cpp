@@ -51,9 +51,8 @@ TEST_P(BrokenGltf, isRefusedWithOneLine) {
 
 TEST_P(BrokenGltf, isRefusedFromMemoryToo) {
   const std::string bytes = readFile(fs::path(GNOMON_BROKEN_GLTF) / GetParam());
-  EXPECT_THROW(
-      loadGltfFromMemory(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), GetParam()),
-      WorldError);
+  EXPECT_THROW(loadGltfFromMemory(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), GetParam()),
+               WorldError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Corpus, BrokenGltf, testing::ValuesIn(corpus()),

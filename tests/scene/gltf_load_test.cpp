@@ -68,8 +68,7 @@ TEST(GltfModes, stripsAndFansFaceTheSameWay) {
       text.addNode({{"mesh", text.addMesh({{"POSITION", positions}}, indices, mode)}});
       const Scene scene = text.load();
       ASSERT_EQ(triangleCount(scene), 2u);
-      for (size_t i = 0; i < 2; ++i)
-        EXPECT_EQ(faceNormal(scene.meshes[0], i), glm::vec3(0, 0, 1)) << "mode " << mode;
+      for (size_t i = 0; i < 2; ++i) EXPECT_EQ(faceNormal(scene.meshes[0], i), glm::vec3(0, 0, 1)) << "mode " << mode;
     }
   }
 }
@@ -77,8 +76,7 @@ TEST(GltfModes, stripsAndFansFaceTheSameWay) {
 TEST(GltfModes, linesAndPointsArePassedOver) {
   GltfText text;
   const int positions = text.addVec3(kTriangle);
-  for (int mode : {0, 1, 2, 3, 4})
-    text.addNode({{"mesh", text.addMesh({{"POSITION", positions}}, -1, mode)}});
+  for (int mode : {0, 1, 2, 3, 4}) text.addNode({{"mesh", text.addMesh({{"POSITION", positions}}, -1, mode)}});
   const Scene scene = text.load();
   EXPECT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(triangleCount(scene), 1u);
@@ -88,8 +86,7 @@ TEST(GltfVertices, unusedOnesAreLeftOut) {
   GltfText text;
   const int positions = text.addVec3({{9, 9, 9}, {0, 0, 0}, {8, 8, 8}, {1, 0, 0}, {0, 1, 0}});
   const int normals = text.addVec3(std::vector<glm::vec3>(5, {0, 0, 1}));
-  text.addNode(
-      {{"mesh", text.addMesh({{"POSITION", positions}, {"NORMAL", normals}}, text.addIndices({1, 3, 4}))}});
+  text.addNode({{"mesh", text.addMesh({{"POSITION", positions}, {"NORMAL", normals}}, text.addIndices({1, 3, 4}))}});
   const Scene scene = text.load();
   EXPECT_EQ(scene.meshes[0].positions, kTriangle);
   EXPECT_EQ(scene.meshes[0].indices, (std::vector<uint32_t>{0, 1, 2}));
@@ -103,10 +100,10 @@ TEST(GltfVertices, normalizedUvsAndByteIndices) {
   // clear.
   const int uvAccessor = text.addAccessor(uvs, sizeof(uvs), 3, 5121, "VEC2", true);
   const int indexAccessor = text.addAccessor(indices, sizeof(indices), 3, 5121, "SCALAR", false);
-  text.addNode({{"mesh", text.addMesh({{"POSITION", text.addVec3(kTriangle)},
-                                       {"NORMAL", text.addVec3(kUp3)},
-                                       {"TEXCOORD_0", uvAccessor}},
-                                      indexAccessor)}});
+  text.addNode(
+      {{"mesh", text.addMesh(
+                    {{"POSITION", text.addVec3(kTriangle)}, {"NORMAL", text.addVec3(kUp3)}, {"TEXCOORD_0", uvAccessor}},
+                    indexAccessor)}});
   const Scene scene = text.load();
   EXPECT_EQ(scene.meshes[0].uvs[0], glm::vec2(0.0f, 1.0f));
   EXPECT_FLOAT_EQ(scene.meshes[0].uvs[1].x, 0.2f);
@@ -147,8 +144,7 @@ TEST(GltfTransforms, unevenScaleTurnsNormalsByTheInverseTranspose) {
   const float s = std::sqrt(0.5f);
   const int positions = text.addVec3({{0, 0, 0}, {1, -1, 0}, {0, 0, 1}});
   const int normals = text.addVec3(std::vector<glm::vec3>(3, {-s, -s, 0}));
-  text.addNode(
-      {{"mesh", text.addMesh({{"POSITION", positions}, {"NORMAL", normals}}, -1)}, {"scale", {3, 1, 1}}});
+  text.addNode({{"mesh", text.addMesh({{"POSITION", positions}, {"NORMAL", normals}}, -1)}, {"scale", {3, 1, 1}}});
   const Scene scene = text.load();
   EXPECT_LT(glm::distance(scene.meshes[0].normals[0], faceNormal(scene.meshes[0], 0)), 1e-6f);
 }
@@ -235,9 +231,9 @@ TEST(GltfLights, defaultsAndDirections) {
 TEST(GltfCameras, areRigidWhateverTheNodesScale) {
   GltfText text;
   text.addNode({{"mesh", text.addMesh({{"POSITION", text.addVec3(kTriangle)}}, -1)}});
-  text.document["cameras"] = json::array(
-      {{{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 9}}}},
-       {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.25}}}}});
+  text.document["cameras"] =
+      json::array({{{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 9}}}},
+                   {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.25}}}}});
   text.addNode({{"camera", 0}});
   text.addNode({{"camera", 1}, {"scale", {3, -2, 0.5}}, {"translation", {1, 2, 3}}});
   const Scene scene = text.load();
@@ -253,8 +249,7 @@ TEST(GltfCameras, areRigidWhateverTheNodesScale) {
 
 // A 2 x 1 image: opaque red and clear green.
 std::string smallPng() {
-  const fs::path path =
-      fs::path(testing::TempDir()) / ("gnomon_small_" + std::to_string(::getpid()) + ".png");
+  const fs::path path = fs::path(testing::TempDir()) / ("gnomon_small_" + std::to_string(::getpid()) + ".png");
   Image8 image(2, 1, 4);
   image.values = {255, 0, 0, 255, 0, 255, 0, 0};
   writePng(path, image);
@@ -272,15 +267,13 @@ GltfText texturedTriangle(const json& textureInfo, const json& material) {
   json whole = material;
   whole["pbrMetallicRoughness"]["baseColorTexture"] = textureInfo;
   text.document["materials"] = json::array({whole});
-  text.addNode(
-      {{"mesh", text.addMesh({{"POSITION", text.addVec3(kTriangle)}, {"TEXCOORD_0", uvs}}, -1, 4, 0)}});
+  text.addNode({{"mesh", text.addMesh({{"POSITION", text.addVec3(kTriangle)}, {"TEXCOORD_0", uvs}}, -1, 4, 0)}});
   return text;
 }
 
 TEST(GltfMaterials, maskedTextureHasItsHolesWhereTheImageHas) {
   const Scene scene =
-      texturedTriangle({{"index", 0}}, {{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}, {"doubleSided", true}})
-          .load();
+      texturedTriangle({{"index", 0}}, {{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}, {"doubleSided", true}}).load();
   const Material& material = scene.materials[0];
   EXPECT_EQ(material.alphaMode, AlphaMode::Mask);
   EXPECT_EQ(material.alphaCutoff, 0.25f);
@@ -302,8 +295,7 @@ TEST(GltfMaterials, textureTransformIsAppliedToTheUvs) {
   // The example of KHR_texture_transform: a quarter turn, then a move.
   const json transform = {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}};
   const Scene scene =
-      texturedTriangle({{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}, json::object())
-          .load();
+      texturedTriangle({{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}, json::object()).load();
   const glm::vec2 expected[] = {{0, 1}, {0, 0.5f}, {0.5f, 1}};
   for (int i = 0; i < 3; ++i) EXPECT_LT(glm::distance(scene.meshes[0].uvs[i], expected[i]), 1e-6f) << i;
 }
@@ -324,17 +316,16 @@ TEST(GltfFiles, buffersAndImagesBesideTheFileAreFound) {
   std::copy_n(reinterpret_cast<const char*>(kTriangle.data()), 36, bytes.begin());
   writeTextFile(folder / "a b.bin", bytes);
   writeTextFile(folder / "small.png", smallPng());
-  const json document = {
-      {"asset", {{"version", "2.0"}}},
-      {"scenes", {{{"nodes", {0}}}}},
-      {"nodes", {{{"mesh", 0}}}},
-      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"material", 0}}}}}}},
-      {"materials", {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}}},
-      {"textures", {{{"source", 0}}}},
-      {"images", {{{"uri", "small.png"}}}},
-      {"buffers", {{{"byteLength", 36}, {"uri", "a%20b.bin"}}}},
-      {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
-      {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}}}};
+  const json document = {{"asset", {{"version", "2.0"}}},
+                         {"scenes", {{{"nodes", {0}}}}},
+                         {"nodes", {{{"mesh", 0}}}},
+                         {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"material", 0}}}}}}},
+                         {"materials", {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}}},
+                         {"textures", {{{"source", 0}}}},
+                         {"images", {{{"uri", "small.png"}}}},
+                         {"buffers", {{{"byteLength", 36}, {"uri", "a%20b.bin"}}}},
+                         {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
+                         {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}}}};
   writeTextFile(folder / "scene.gltf", document.dump());
   const Scene scene = loadGltf(folder / "scene.gltf");
   EXPECT_EQ(scene.name, "scene");

@@ -137,8 +137,7 @@ TEST(RoundTripOfFiles, awkwardSceneLoadsAgainEqual) {
   scene.materials[1].baseColorTexture = 1;
   scene.materials[1].baseColor = glm::vec4(0.1f, 1.0f / 3.0f, 0.7f, 0.9f);
   scene.lights.clear();
-  const glm::vec3 directions[] = {{0, -1, 0}, {0, 1, 0}, {0, 0, -1},
-                                  {0, 0, 1},  {1, 0, 0}, {0.6f, -0.8f, 0.0f}};
+  const glm::vec3 directions[] = {{0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {0.6f, -0.8f, 0.0f}};
   for (const glm::vec3& direction : directions) {
     for (LightType type : {LightType::Point, LightType::Spot, LightType::Directional}) {
       Light light;

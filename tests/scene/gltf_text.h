@@ -22,8 +22,7 @@ class GltfText {
   int addVec2(const std::vector<glm::vec2>& values);
   int addIndices(const std::vector<uint32_t>& values);
   // Raw bytes as `count` elements, for other component types.
-  int addAccessor(const void* bytes, size_t size, size_t count, int componentType, const char* type,
-                  bool normalized);
+  int addAccessor(const void* bytes, size_t size, size_t count, int componentType, const char* type, bool normalized);
 
   // A mesh of one primitive; `indices` -1: none. Returns the mesh's index.
   int addMesh(const nlohmann::json& attributes, int indices, int mode = 4, int material = -1);

@@ -53,8 +53,7 @@ std::vector<PlaneCase> planeCases(const ShadowMap& map, const FittedMap& fitted,
   return cases;
 }
 
-bool lit(int method, const ShadowMap& map, const BiasParams& params, const Receiver& receiver,
-         const Tap& tap) {
+bool lit(int method, const ShadowMap& map, const BiasParams& params, const Receiver& receiver, const Tap& tap) {
   bool known = false;
   const bool result = biasLit(method, map, params, receiver, tap, known);
   EXPECT_TRUE(known);
@@ -73,8 +72,7 @@ TEST_P(Bias, AdaptiveNeverShadowsAPlaneByItself) {
   for (const int epsilonAt : {kEpsilonAtFragment, kEpsilonAtOccluder, kEpsilonAtStored}) {
     params_.epsilonAt = epsilonAt;
     size_t acne = 0;
-    for (const PlaneCase& c : cases)
-      acne += lit(kBiasAdaptive, fitted_.map, params_, c.receiver, c.tap) ? 0 : 1;
+    for (const PlaneCase& c : cases) acne += lit(kBiasAdaptive, fitted_.map, params_, c.receiver, c.tap) ? 0 : 1;
     EXPECT_EQ(acne, 0u) << "epsilon at " << epsilonAtName(epsilonAt);
   }
 }
@@ -144,8 +142,7 @@ TEST_P(Bias, MidpointAndConstantAreTheLimitsOfDual) {
     Tap tap = c.tap;
     const float distance = mapDistance(fitted_.map, 0, tap.ray, tap.z1);
     const float gap = 2.0f * unit(random);  // metres
-    tap.z1 = mapDepth(fitted_.map, 0,
-                      tap.ray.origin + tap.ray.dir * std::max(distance - 0.5f * unit(random), 0.0f));
+    tap.z1 = mapDepth(fitted_.map, 0, tap.ray.origin + tap.ray.dir * std::max(distance - 0.5f * unit(random), 0.0f));
     tap.z2 = mapDepth(fitted_.map, 0, tap.ray.origin + tap.ray.dir * (distance + gap));
     const bool midpoint = lit(kBiasMidpoint, fitted_.map, params_, c.receiver, tap);
     params_.dualOffset = 1e6f;
@@ -192,8 +189,7 @@ TEST_P(Bias, MidpointIsHalfWayBetweenTheLayers) {
 TEST_P(Bias, ReceiverPlaneNeverShadowsAPlaneByItself) {
   size_t acne = 0;
   const auto cases = planeCases(fitted_.map, fitted_, 1 << 14);
-  for (const PlaneCase& c : cases)
-    acne += lit(kBiasReceiverPlane, fitted_.map, params_, c.receiver, c.tap) ? 0 : 1;
+  for (const PlaneCase& c : cases) acne += lit(kBiasReceiverPlane, fitted_.map, params_, c.receiver, c.tap) ? 0 : 1;
   // The rest are planes so steep that a ray one texel on does not meet them between near and far.
   EXPECT_LE(static_cast<double>(acne) / static_cast<double>(cases.size()), 0.01);
 }
@@ -225,8 +221,7 @@ TEST_P(Bias, CosineIsNothingWhereTheSurfaceFacesTheLight) {
 
 TEST_P(Bias, NormalOffsetMovesTexelsAlongTheNormal) {
   for (const MapSample& sample : samplesOf(fitted_, 512, 19)) {
-    if (std::abs(sample.uv.x - 0.5f) > 0.45f || std::abs(sample.uv.y - 0.5f) > 0.45f)
-      continue;  // moved off the map
+    if (std::abs(sample.uv.x - 0.5f) > 0.45f || std::abs(sample.uv.y - 0.5f) > 0.45f) continue;  // moved off the map
     const Ray ray = mapTexelRay(fitted_.map, 0, sample.uv);
     const Receiver receiver{sample.posL, facingNormal(ray.dir, 1.0f, 2.0f)};  // 45 degrees
     params_.normalOffsetTexels = 2.0f;
@@ -285,12 +280,12 @@ TEST_F(BiasOnTheGpu, VerdictsEqualTheCpuForEveryMethod) {
   std::vector<BiasQuery> queries;
   for (const MapSample& sample : samplesOf(fitted, gpu::kKernelInputCount, 16)) {
     PlaneCase c = planeCase(fitted.map, sample, std::tan(unit(random) * 1.57f), unit(random) * 6.0f);
-    BiasQuery query{.method = static_cast<int>(queries.size() %
-                                               (biasMethods().size() + 2)),  // and the user's, and no method
-                    .params = defaultBiasParams(fitted.map.sceneScale),
-                    .receiver = c.receiver,
-                    .z1 = c.tap.z1,
-                    .z2 = c.tap.z1 + unit(random) * 0.1f};
+    BiasQuery query{
+        .method = static_cast<int>(queries.size() % (biasMethods().size() + 2)),  // and the user's, and no method
+        .params = defaultBiasParams(fitted.map.sceneScale),
+        .receiver = c.receiver,
+        .z1 = c.tap.z1,
+        .z2 = c.tap.z1 + unit(random) * 0.1f};
     query.params.epsilonAt = static_cast<int>(queries.size() % 3);
     // Near the decision of each method, on either side.
     query.z1 += (unit(random) - 0.5f) * 1e-3f;
@@ -299,8 +294,8 @@ TEST_F(BiasOnTheGpu, VerdictsEqualTheCpuForEveryMethod) {
   const gpu::Buffer map = gpu::createBufferWith(
       device(), "map", std::vector<MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
       VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-  const auto answers = gpu::runKernel<BiasQuery, uint>(
-      device(), GNOMON_TEST_SHADER("evaluate_bias.comp.glsl"), queries, {{kBindMap, map}});
+  const auto answers = gpu::runKernel<BiasQuery, uint>(device(), GNOMON_TEST_SHADER("evaluate_bias.comp.glsl"), queries,
+                                                       {{kBindMap, map}});
   size_t different = 0;
   std::set<uint> seen;
   for (size_t i = 0; i < queries.size(); ++i) {

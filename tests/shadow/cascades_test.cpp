@@ -1,11 +1,11 @@
 // Splits and layers, and what every planar fit owes to every receiver.
-#include "shadow/cascades.h"
+#include "planar/cascades.h"
 #include "base/error.h"
+#include "judge/texel_density.h"
 #include "map_fixture.h"
+#include "planar/convex_body.h"
+#include "planar/window.h"
 #include "seen_scene.h"
-#include "shadow/convex_body.h"
-#include "shadow/fit.h"
-#include "shadow/texel_density.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,8 +51,7 @@ TEST(Cascades, TheFirstThatCoversIsTakenAndTheyGrowCoarser) {
   }
   const std::vector<double> splits = cascadeSplits(nearest, farthest, 3);
   for (const glm::dvec3& receiver : seen.scored) {
-    const int layer =
-        glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(receiver))).layer;
+    const int layer = glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(receiver))).layer;
     for (int later = 1; later < 3; ++later) {
       if (viewDepth(seen.view, receiver) < splits[static_cast<size_t>(later)]) {
         ASSERT_LT(layer, later);
@@ -78,8 +77,8 @@ TEST(Cascades, TheFirstThatCoversIsTakenAndTheyGrowCoarser) {
 }
 
 TEST(PlanarFit, EveryReceiverOfEverySceneIsCoveredWithinTheDepthRange) {
-  for (const char* scene : {"lshape", "double-torus", "factory", "atrium", "corner", "grate", "sheets",
-                            "contact", "slope", "crowd:20000"}) {
+  for (const char* scene : {"lshape", "double-torus", "factory", "atrium", "corner", "grate", "sheets", "contact",
+                            "slope", "crowd:20000"}) {
     for (const Parameterization* map : planarParameterizations()) {
       const SeenScene seen = test::see(scene, *map, 48);
       ASSERT_GT(seen.scored.size(), 20u) << scene << " " << map->name();
@@ -115,10 +114,8 @@ TEST(PlanarFit, NoCasterOfAReceiverIsLostBeforeTheNearEnd) {
           const auto hit = seen.tracer->firstHit({.origin = origin, .dir = dir});
           if (!hit) continue;
           ++met;
-          const glm::vec3 casterL =
-              glsl::lightFromWorld(fitted.frame, glm::vec3(origin + dir * hit->distance));
-          const int layer =
-              glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(receiver))).layer;
+          const glm::vec3 casterL = glsl::lightFromWorld(fitted.frame, glm::vec3(origin + dir * hit->distance));
+          const int layer = glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(receiver))).layer;
           lost += glsl::mapDepth(fitted.map, layer, casterL) < 0.0f ? 1 : 0;
         }
         EXPECT_EQ(lost, 0u) << scene << " " << map->name() << ": " << test::describe(options);
@@ -138,24 +135,20 @@ TEST(PlanarFit, TightHoldsWhateverTheCameraCouldSeeAndNoneWhateverTheLightCould)
       const SeenScene seen = test::see(scene, *map, 32);
       const Bounds bounds = computeBounds(*seen.scene);
       for (const int cascades : {1, map->layerCount({.cascades = 3})}) {
-        const FittedMap tight =
-            seen.fit(*map, {.fit = WindowFit::Tight, .snap = false, .cascades = cascades});
+        const FittedMap tight = seen.fit(*map, {.fit = WindowFit::Tight, .snap = false, .cascades = cascades});
         const FittedMap whole = seen.fit(*map, {.fit = WindowFit::None, .snap = false, .cascades = cascades});
         size_t inView = 0, inCone = 0;
         for (int i = 0; i < 4000; ++i) {
-          const glm::vec3 p =
-              glm::mix(bounds.lower, bounds.upper, glm::vec3(unit(random), unit(random), unit(random)));
+          const glm::vec3 p = glm::mix(bounds.lower, bounds.upper, glm::vec3(unit(random), unit(random), unit(random)));
           const glm::dvec3 fromLight = glm::dvec3(p) - seen.light.positionW;
           if (seen.light.type == LightType::Spot &&
-              glm::dot(glm::normalize(fromLight), seen.light.directionW) <
-                  std::cos(0.999 * seen.light.outerConeRad))
+              glm::dot(glm::normalize(fromLight), seen.light.directionW) < std::cos(0.999 * seen.light.outerConeRad))
             continue;
           const glm::vec3 posL = glsl::lightFromWorld(whole.frame, p);
           ++inCone;
           ASSERT_TRUE(glsl::mapProject(whole.map, posL).covered) << scene << " " << map->name();
           const glm::vec4 clip = seen.view.clipFromWorld * glm::vec4(p, 1.0f);
-          if (clip.w < clip.z || std::abs(clip.x) > 0.999f * clip.w || std::abs(clip.y) > 0.999f * clip.w)
-            continue;
+          if (clip.w < clip.z || std::abs(clip.x) > 0.999f * clip.w || std::abs(clip.y) > 0.999f * clip.w) continue;
           ++inView;
           ASSERT_TRUE(glsl::mapProject(tight.map, posL).covered) << scene << " " << map->name();
         }
@@ -186,8 +179,7 @@ TEST(PlanarFit, NoneHoldsWhatTightHoldsAndTightWhatFocusedHolds) {
       const auto area = [](const FittedMap& fitted) {
         const glsl::Ray a = glsl::mapTexelRay(fitted.map, 0, {0.0f, 0.0f});
         const glsl::Ray b = glsl::mapTexelRay(fitted.map, 0, {1.0f, 1.0f});
-        const glm::vec3 d =
-            (b.origin + b.dir * (b.origin.z / -b.dir.z)) - (a.origin + a.dir * (a.origin.z / -a.dir.z));
+        const glm::vec3 d = (b.origin + b.dir * (b.origin.z / -b.dir.z)) - (a.origin + a.dir * (a.origin.z / -a.dir.z));
         const glm::vec3 e = b.dir / b.dir.z - a.dir / a.dir.z;
         return std::abs(d.x * d.y) + std::abs(e.x * e.y);
       };
@@ -209,8 +201,8 @@ TEST(ConvexBody, IsWhatTheCameraSeesOfTheBox) {
     const double x = glm::dot(d, glm::dvec3(view.rightW));
     const double y = glm::dot(d, glm::dvec3(view.upW));
     return glm::all(glm::greaterThan(p, glm::dvec3(box.lower) - slack)) &&
-           glm::all(glm::lessThan(p, glm::dvec3(box.upper) + slack)) && depth > 0.5 - slack &&
-           depth < 6.0 + slack && std::abs(x) < static_cast<double>(view.tanHalfX) * depth + slack &&
+           glm::all(glm::lessThan(p, glm::dvec3(box.upper) + slack)) && depth > 0.5 - slack && depth < 6.0 + slack &&
+           std::abs(x) < static_cast<double>(view.tanHalfX) * depth + slack &&
            std::abs(y) < static_cast<double>(view.tanHalfY) * depth + slack;
   };
   for (const glm::dvec3& corner : corners) EXPECT_TRUE(inside(corner, 1e-6));
@@ -219,8 +211,8 @@ TEST(ConvexBody, IsWhatTheCameraSeesOfTheBox) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::vector<glm::dvec3> points;
   while (points.size() < 3000) {
-    const glm::dvec3 p = glm::mix(glm::dvec3(box.lower), glm::dvec3(box.upper),
-                                  glm::dvec3(unit(random), unit(random), unit(random)));
+    const glm::dvec3 p =
+        glm::mix(glm::dvec3(box.lower), glm::dvec3(box.upper), glm::dvec3(unit(random), unit(random), unit(random)));
     if (inside(p, 0.0)) points.push_back(p);
   }
   for (int i = 0; i < 200; ++i) {

@@ -65,8 +65,7 @@ TEST(Filter, JitterHasOnePointInEachCell) {
 
 // Mean and variance: a square four texels wide has 16/12, a tent of half width 1 has 1/6.
 TEST(Filter, ExactKernelsHaveTheirMoments) {
-  for (const auto& [kind, variance] :
-       {std::pair(kFilterJitter4x4, 16.0 / 12.0), {kFilterBilinear, 1.0 / 6.0}}) {
+  for (const auto& [kind, variance] : {std::pair(kFilterJitter4x4, 16.0 / 12.0), {kFilterBilinear, 1.0 / 6.0}}) {
     double mean = 0.0, square = 0.0;
     constexpr int kPixels = 4000;
     for (int pixel = 0; pixel < kPixels; ++pixel) {
@@ -90,9 +89,8 @@ TEST(Filter, NamesAreListedWhenOneIsWrong) {
     parseFilters("billinear");
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_NE(
-        std::string(error.what()).find("billinear: no such filter; choose from none, bilinear, jitter4x4"),
-        std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("billinear: no such filter; choose from none, bilinear, jitter4x4"),
+              std::string::npos)
         << error.what();
   }
 }
@@ -109,21 +107,19 @@ TEST_F(FilterOnTheGpu, TapsAndKernelsEqualTheCpu) {
     query.pixel = {static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
     query.i = static_cast<int>(random() % 16) % filterTapCount(query.kind);
   }
-  const auto answers = gpu::runKernel<FilterQuery, FilterAnswer>(
-      device(), GNOMON_TEST_SHADER("evaluate_filter.comp.glsl"), queries);
+  const auto answers =
+      gpu::runKernel<FilterQuery, FilterAnswer>(device(), GNOMON_TEST_SHADER("evaluate_filter.comp.glsl"), queries);
   size_t different = 0;
   for (size_t i = 0; i < queries.size(); ++i) {
     const FilterAnswer cpu = answerFilter(queries[i]);
-    different +=
-        cpu.texel != answers[i].texel || cpu.weight != answers[i].weight || cpu.kernel != answers[i].kernel;
+    different += cpu.texel != answers[i].texel || cpu.weight != answers[i].weight || cpu.kernel != answers[i].kernel;
   }
   EXPECT_LE(different, isLavapipe() ? size_t{0} : queries.size() / 1000);
 }
 
 // What the pass says of a pixel is what its taps say on the CPU, of the depths that the map holds.
 TEST_F(FilterOnTheGpu, TheVisibilityPassIsTheSumOfItsTaps) {
-  const test::Rendered r =
-      test::render(device(), "contact", spotParameterization(), 128, 64, CullMode::Solids);
+  const test::Rendered r = test::render(device(), "contact", spotParameterization(), 128, 64, CullMode::Solids);
   for (const char* name : {"adaptive", "dual", "constant", "normal-offset"}) {
     const BiasMethod& method = findBias(name);
     const auto image = test::draw(device(), r, method.content, CullMode::Solids);
@@ -147,17 +143,15 @@ TEST_F(FilterOnTheGpu, TheVisibilityPassIsTheSumOfItsTaps) {
                           directionFromWorld(r.fitted.frame, glm::vec3(sample.normalW))};
         receiver = biasReceiver(method.id, map, params, receiver);
         const MapPoint point = mapProject(map, receiver.posL);
-        const uint seed =
-            pixelSeed({static_cast<int>(pixel) % r.view.width, static_cast<int>(pixel) / r.view.width});
+        const uint seed = pixelSeed({static_cast<int>(pixel) % r.view.width, static_cast<int>(pixel) / r.view.width});
         float lit = 0.0f, weights = 0.0f;
         for (int i = 0; i < filterTapCount(kind); ++i) {
           const FilterTap wanted = filterTap(kind, point.uv * static_cast<float>(map.side), seed, i);
           const MapTexel found = mapTexelAcross(map, point.layer, wanted.texel, receiver.posL);
           if (!found.held) continue;
           const auto at = static_cast<size_t>(found.texel.y * map.side + found.texel.x);
-          const Tap tap{found.layer, found.texel,
-                        mapTexelRay(map, found.layer, mapTexelCenter(map, found.texel)), depth[at],
-                        two ? second[at] : 1.0f};
+          const Tap tap{found.layer, found.texel, mapTexelRay(map, found.layer, mapTexelCenter(map, found.texel)),
+                        depth[at], two ? second[at] : 1.0f};
           bool known = false;
           if (biasLit(method.id, map, params, receiver, tap, known)) lit += wanted.weight;
           weights += wanted.weight;

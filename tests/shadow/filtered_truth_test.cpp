@@ -1,5 +1,5 @@
 // The exact shadow through a kernel, where it can be said what it must be.
-#include "shadow/filtered_truth.h"
+#include "judge/filtered_truth.h"
 #include "map_fixture.h"
 
 #include "shared/filter.glsl"
@@ -20,8 +20,7 @@ class FilteredTruthTest : public gpu::GpuTest {
 };
 
 TEST_F(FilteredTruthTest, WithoutAFilterItIsTheTruth) {
-  const test::Rendered r =
-      test::render(device(), "contact", spotParameterization(), 128, 64, CullMode::Solids);
+  const test::Rendered r = test::render(device(), "contact", spotParameterization(), 128, 64, CullMode::Solids);
   const Truth truth = computeTruth(*r.tracer, r.light, r.receivers);
   const std::vector<float> visibility = filtered(r, glsl::kFilterNone);
   for (size_t i = 0; i < visibility.size(); ++i) {
@@ -33,8 +32,7 @@ TEST_F(FilteredTruthTest, WithoutAFilterItIsTheTruth) {
 // Nothing casts a shadow into the corner: its walls meet, and past a crease the receiver's plane runs behind
 // a wall.
 TEST_F(FilteredTruthTest, AConcaveCreaseCastsNoShadow) {
-  const test::Rendered r =
-      test::render(device(), "corner", spotParameterization(), 128, 37, CullMode::Solids);
+  const test::Rendered r = test::render(device(), "corner", spotParameterization(), 128, 37, CullMode::Solids);
   const Truth truth = computeTruth(*r.tracer, r.light, r.receivers);
   ASSERT_EQ(truth.litCount, r.receivers.scored);
   size_t inside = 0;
@@ -53,8 +51,7 @@ TEST_F(FilteredTruthTest, AConcaveCreaseCastsNoShadow) {
 // Away from shadow edges by more than the kernel reaches, it is the truth; at them it is between, and its
 // mean over the picture is the truth's: a symmetric kernel takes as much as it gives along a straight edge.
 TEST_F(FilteredTruthTest, ItSoftensEdgesAndKeepsTheMean) {
-  const test::Rendered r =
-      test::render(device(), "lshape", directionalParameterization(), 256, 128, CullMode::Solids);
+  const test::Rendered r = test::render(device(), "lshape", directionalParameterization(), 256, 128, CullMode::Solids);
   const Truth truth = computeTruth(*r.tracer, r.light, r.receivers);
   double lit = 0.0;
   for (const uint8_t l : truth.lit) lit += l;

@@ -1,6 +1,6 @@
 // Windows that hold still, near planes that miss nothing.
-#include "shadow/fit.h"
 #include "map_fixture.h"
+#include "planar/window.h"
 
 #include <cmath>
 #include <set>
@@ -22,8 +22,7 @@ TEST(SnapWindow, CoversWhatItWasGiven) {
     for (int axis = 0; axis < 2; ++axis) {
       EXPECT_LE(snapped.lower[axis], window.lower[axis]);
       EXPECT_GE(snapped.upper[axis], window.upper[axis]);
-      const double lost =
-          (snapped.upper[axis] - snapped.lower[axis]) / (window.upper[axis] - window.lower[axis]);
+      const double lost = (snapped.upper[axis] - snapped.lower[axis]) / (window.upper[axis] - window.lower[axis]);
       EXPECT_LE(lost, kTexelSizeStep * 512.0 / 511.0 + 1e-9);
     }
   }
@@ -65,13 +64,11 @@ TEST(NearestCasterDepth, IsTheNearestPointOfAnyTriangleInTheWindow) {
       const glm::dmat4 m(instance.worldFromMesh);
       for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
         glm::dvec3 c[3];
-        for (size_t k = 0; k < 3; ++k)
-          c[k] = glm::dvec3(m * glm::dvec4(mesh.positions[mesh.indices[t + k]], 1.0));
+        for (size_t k = 0; k < 3; ++k) c[k] = glm::dvec3(m * glm::dvec4(mesh.positions[mesh.indices[t + k]], 1.0));
         for (int i = 0; i < 400; ++i) {
           const double u = std::sqrt(unit(random)), v = unit(random);
           const glm::dvec3 p = frame.planeFromWorld(c[0] * (1 - u) + c[1] * u * (1 - v) + c[2] * u * v);
-          if (p.x > window.lower.x && p.x < window.upper.x && p.y > window.lower.y && p.y < window.upper.y &&
-              p.z > 0)
+          if (p.x > window.lower.x && p.x < window.upper.x && p.y > window.lower.y && p.y < window.upper.y && p.z > 0)
             nearest = std::min(nearest, p.z);
         }
       }
@@ -107,8 +104,7 @@ TEST(Fit, EveryReceiverIsCoveredAndBetweenNearAndFar) {
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     std::vector<glm::dvec3> receivers;
     for (int i = 0; i < 500; ++i)
-      receivers.emplace_back(
-          glm::mix(bounds.lower, bounds.upper, glm::vec3(unit(random), unit(random), unit(random))));
+      receivers.emplace_back(glm::mix(bounds.lower, bounds.upper, glm::vec3(unit(random), unit(random), unit(random))));
     const glsl::CameraView camera = cameraView(scene.cameras.front(), 64, 64);
     for (const Parameterization* map : planarParameterizations()) {
       const glm::dvec3 eye = glm::dvec3(bounds.center()) + glm::dvec3(0, 2.0 * bounds.diagonal(), 0.1);

@@ -71,8 +71,7 @@ TEST_F(LayerCullingTest, NoTriangleThatALayerMayShowIsLeftOutAndMostOthersAre) {
         // Outside one side of the clip volume with all its corners: nothing of it is seen.
         bool outside[4] = {true, true, true, true};
         for (uint32_t corner = i; corner < i + 3; ++corner) {
-          const glm::vec3 posW(instance.worldFromMesh *
-                               glm::vec4(mesh.positions[mesh.indices[corner]], 1.0f));
+          const glm::vec3 posW(instance.worldFromMesh * glm::vec4(mesh.positions[mesh.indices[corner]], 1.0f));
           const glm::vec4 clip = glsl::transform(fitted.map.mapLayers[0].clipFromLight,
                                                  glm::vec4(glsl::lightFromWorld(fitted.frame, posW), 1.0f));
           outside[0] = outside[0] && clip.x > clip.w;
@@ -90,8 +89,7 @@ TEST_F(LayerCullingTest, NoTriangleThatALayerMayShowIsLeftOutAndMostOthersAre) {
       }
     }
   }
-  std::printf("%zu triangles, %zu may be seen, %zu are drawn, %zu without parts\n", all, needed, drawn,
-              uncut);
+  std::printf("%zu triangles, %zu may be seen, %zu are drawn, %zu without parts\n", all, needed, drawn, uncut);
   EXPECT_GT(needed, all / 50);
   EXPECT_LT(uncut, all);
   EXPECT_LT(drawn - needed,

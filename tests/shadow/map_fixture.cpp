@@ -9,9 +9,8 @@ namespace {
 
 // `aimW`: where a light without a direction shines.
 LightModel lightFor(const Scene& scene, const Parameterization& map, const glm::dvec3& aimW) {
-  const auto wanted = std::ranges::find_if(scene.lights, [&](const Light& light) {
-    return map.takes(light.type) == Parameterization::Takes::Yes;
-  });
+  const auto wanted = std::ranges::find_if(
+      scene.lights, [&](const Light& light) { return map.takes(light.type) == Parameterization::Takes::Yes; });
   const Light light = wanted != scene.lights.end() ? *wanted : scene.lights.front();
   const glm::dvec3 aim = glm::normalize(aimW - glm::dvec3(light.positionW));
   return map.lightModel(light, aim);
@@ -33,8 +32,7 @@ FittedMap fitContact(const Parameterization& map) {
   std::vector<glm::dvec3> receivers;
   const Bounds bounds = computeBounds(scene);
   for (int i = 0; i < 8; ++i)
-    receivers.emplace_back(
-        glm::mix(bounds.lower, bounds.upper, glm::vec3(i & 1, (i >> 1) & 1, i >> 2) * 0.6f + 0.2f));
+    receivers.emplace_back(glm::mix(bounds.lower, bounds.upper, glm::vec3(i & 1, (i >> 1) & 1, i >> 2) * 0.6f + 0.2f));
   const LightModel light = lightFor(scene, map, glm::dvec3(bounds.center()));
   const glsl::CameraView camera = cameraView(scene.cameras.front(), 256, 256);
   return map.fit({.scene = scene, .light = light, .receiversW = receivers, .side = 256, .camera = camera});
@@ -73,8 +71,8 @@ glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth) {
   return glm::normalize(-rayDir + tanAngle * (u * std::cos(azimuth) + v * std::sin(azimuth)));
 }
 
-Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map,
-                int pictureSide, int mapSide, CullMode cull, MapContent content) {
+Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,
+                int mapSide, CullMode cull, MapContent content) {
   Rendered r;
   r.scene = openScene(sceneName);
   r.tracer = std::make_unique<Tracer>(r.scene);
@@ -92,14 +90,13 @@ Rendered render(const gpu::Device& device, const std::string& sceneName, const P
   std::vector<glm::dvec3> scored;
   for (size_t i = 0; i < r.receivers.states.size(); ++i)
     if (r.receivers.states[i] == PixelState::Scored) scored.push_back(r.receivers.samples[i].positionW);
-  r.fitted =
-      map.fit({.scene = r.scene, .light = r.light, .receiversW = scored, .side = mapSide, .camera = r.view});
+  r.fitted = map.fit({.scene = r.scene, .light = r.light, .receiversW = scored, .side = mapSide, .camera = r.view});
   r.image = draw(device, r, content, cull);
   return r;
 }
 
-std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, MapContent content,
-                               CullMode cull, SecondLayer method) {
+std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, MapContent content, CullMode cull,
+                               SecondLayer method) {
   auto image = std::make_unique<MapImage>(device, r.fitted, content);
   const MapRenderer renderer(device);
   gpu::Commands commands(device, "shadow map");

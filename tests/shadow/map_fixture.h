@@ -1,9 +1,9 @@
 #pragma once
 // Maps, receivers and rendered scenes that the tests of shadow/ share.
 
+#include "planar/planar_map.h"
 #include "scene/generate.h"
 #include "shadow/parameterization.h"
-#include "shadow/planar_map.h"
 #include "shadow/visibility_pass.h"
 #include "tests/gpu_fixture.h"
 #include "truth/visibility.h"
@@ -41,11 +41,11 @@ struct Rendered {
   FittedMap fitted;
   std::unique_ptr<MapImage> image;
 };
-Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map,
-                int pictureSide, int mapSide, CullMode cull, MapContent content = MapContent::OneLayer);
+Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,
+                int mapSide, CullMode cull, MapContent content = MapContent::OneLayer);
 
 // The map of `r` with other content, or drawn another way.
-std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, MapContent content,
-                               CullMode cull, SecondLayer method = SecondLayer::Blend);
+std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, MapContent content, CullMode cull,
+                               SecondLayer method = SecondLayer::Blend);
 
 }  // namespace gnomon::test

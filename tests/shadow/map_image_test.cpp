@@ -65,10 +65,8 @@ class MapImageTest : public gpu::GpuTest {
         const float stored = depths[static_cast<size_t>(y) * 256 + x];
         float expected = 1.0f;
         if (hit) {
-          const glsl::Ray ray =
-              glsl::mapTexelRay(r.fitted.map, 0, glsl::mapTexelCenter(r.fitted.map, {x, y}));
-          expected =
-              glsl::mapDepth(r.fitted.map, 0, ray.origin + ray.dir * static_cast<float>(hit->distance));
+          const glsl::Ray ray = glsl::mapTexelRay(r.fitted.map, 0, glsl::mapTexelCenter(r.fitted.map, {x, y}));
+          expected = glsl::mapDepth(r.fitted.map, 0, ray.origin + ray.dir * static_cast<float>(hit->distance));
           ++covered;
         }
         const float tolerance = hit ? rasterTolerance(r.fitted, *hit, x, y) : 0.0f;
@@ -100,10 +98,8 @@ TEST_F(MapImageTest, EveryTexelHoldsTheFirstHitOfItsRayInInstances) {
 // A closed solid seen from outside has a front face before every back face, so leaving the back faces out
 // changes no texel but those where its silhouette falls between the sample points.
 TEST_F(MapImageTest, CullingSolidsChangesOnlySilhouettes) {
-  const test::Rendered all =
-      test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
-  const test::Rendered culled =
-      test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::Solids);
+  const test::Rendered all = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
+  const test::Rendered culled = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::Solids);
   const auto a = gpu::downloadAs<float>(device(), all.image->depth());
   const auto b = gpu::downloadAs<float>(device(), culled.image->depth());
   size_t different = 0;
@@ -150,8 +146,7 @@ TEST_F(MapImageTest, BlendingAndPeelingGiveTheSameTwoLayers) {
         const auto blended = test::draw(device(), r, MapContent::TwoLayers, cull, SecondLayer::Blend);
         const auto peeled = test::draw(device(), r, MapContent::TwoLayers, cull, SecondLayer::Peel);
         EXPECT_EQ(gpu::download(device(), blended->depth()), gpu::download(device(), peeled->depth()));
-        EXPECT_EQ(gpu::download(device(), blended->secondDepth()),
-                  gpu::download(device(), peeled->secondDepth()))
+        EXPECT_EQ(gpu::download(device(), blended->secondDepth()), gpu::download(device(), peeled->secondDepth()))
             << generated.name << " " << map->name();
         const auto z1 = gpu::downloadAs<float>(device(), blended->depth());
         const auto z2 = gpu::downloadAs<float>(device(), blended->secondDepth());
@@ -163,8 +158,7 @@ TEST_F(MapImageTest, BlendingAndPeelingGiveTheSameTwoLayers) {
 
 // The second layer is the second hit of the texel's ray, but near the edges of what is hit.
 TEST_F(MapImageTest, TheSecondLayerIsTheSecondHitOfItsRay) {
-  const test::Rendered r =
-      test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
+  const test::Rendered r = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
   const auto image = test::draw(device(), r, MapContent::TwoLayers, CullMode::None);
   const auto z1 = gpu::downloadAs<float>(device(), image->depth());
   const auto z2 = gpu::downloadAs<float>(device(), image->secondDepth());
@@ -195,8 +189,7 @@ TEST_F(MapImageTest, TheSecondLayerIsTheSecondHitOfItsRay) {
 // Wang & Molnar 1994: nothing that a solid's lit side could be compared with is in the map, so solids alone
 // show no acne.
 TEST_F(MapImageTest, BackFacesLieBehindFrontFaces) {
-  const test::Rendered r =
-      test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
+  const test::Rendered r = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
   const auto back = test::draw(device(), r, MapContent::BackFaces, CullMode::Solids);
   const auto a = gpu::downloadAs<float>(device(), r.image->depth());
   const auto b = gpu::downloadAs<float>(device(), back->depth());

@@ -48,10 +48,8 @@ double warpRatio(const FittedMap& fitted) {
   double least = 1e30, most = 0.0;
   for (const vec2& uv : {vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(1, 1)}) {
     const vec3 near = mapTexelRay(fitted.map, 0, uv).origin;
-    const double axis =
-        fitted.map.mapLayers[0].clipFromLight[3][3] == 0.0f ? -static_cast<double>(near.z) : 1.0;
-    const double w =
-        static_cast<double>(transform(fitted.map.mapLayers[0].clipFromLight, vec4(near, 1.0f)).w) / axis;
+    const double axis = fitted.map.mapLayers[0].clipFromLight[3][3] == 0.0f ? -static_cast<double>(near.z) : 1.0;
+    const double w = static_cast<double>(transform(fitted.map.mapLayers[0].clipFromLight, vec4(near, 1.0f)).w) / axis;
     least = std::min(least, w);
     most = std::max(most, w);
   }
@@ -105,8 +103,7 @@ TEST_P(PlanarMap, DepthGrowsStrictlyFromZeroToOneAlongEveryRay) {
     EXPECT_NEAR(mapDepth(fitted_.map, 0, ray.origin + ray.dir * length), 1.0f, 1e-6f);
     float before = -1.0f;
     for (int i = 0; i <= 100; ++i) {
-      const float depth =
-          mapDepth(fitted_.map, 0, ray.origin + ray.dir * (length * static_cast<float>(i) / 100.0f));
+      const float depth = mapDepth(fitted_.map, 0, ray.origin + ray.dir * (length * static_cast<float>(i) / 100.0f));
       ASSERT_GT(depth, before);
       before = depth;
     }
@@ -175,8 +172,8 @@ TEST_F(PlanarMapOnTheGpu, EveryFunctionEqualsTheCpuBitForBit) {
     const gpu::Buffer map = gpu::createBufferWith(
         device(), "map", std::vector<MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-    const auto answers = gpu::runKernel<MapQuery, MapAnswer>(
-        device(), GNOMON_TEST_SHADER("evaluate_map.comp.glsl"), queries, {{kBindMap, map}});
+    const auto answers = gpu::runKernel<MapQuery, MapAnswer>(device(), GNOMON_TEST_SHADER("evaluate_map.comp.glsl"),
+                                                             queries, {{kBindMap, map}});
     int64_t worst = 0;
     for (size_t i = 0; i < queries.size(); ++i) {
       const MapAnswer expected = answerMap(fitted.map, queries[i]);

@@ -41,12 +41,8 @@ void addBox(Scene& scene, const glm::vec3& lower, const glm::vec3& upper) {
 }  // namespace
 
 FittedMap SeenScene::fit(const Parameterization& map, const MapOptions& options, int side) const {
-  return map.fit({.scene = *scene,
-                  .light = light,
-                  .receiversW = scored,
-                  .side = side,
-                  .camera = view,
-                  .options = options});
+  return map.fit(
+      {.scene = *scene, .light = light, .receiversW = scored, .side = side, .camera = view, .options = options});
 }
 
 SeenScene see(Scene scene, const Camera& camera, const LightModel& light, int pictureSide) {
@@ -58,8 +54,7 @@ SeenScene see(Scene scene, const Camera& camera, const LightModel& light, int pi
   seen.light = light;
   seen.receivers = computeReceivers(*seen.tracer, seen.view, light, tracePrimitives(*seen.tracer, seen.view));
   for (size_t i = 0; i < seen.receivers.states.size(); ++i)
-    if (seen.receivers.states[i] == PixelState::Scored)
-      seen.scored.push_back(seen.receivers.samples[i].positionW);
+    if (seen.receivers.states[i] == PixelState::Scored) seen.scored.push_back(seen.receivers.samples[i].positionW);
   return seen;
 }
 
@@ -102,8 +97,7 @@ LightModel sun(double elevationDegrees, double azimuthDegrees) {
 std::vector<MapOptions> allPlanarOptions() {
   std::vector<MapOptions> all;
   for (const WindowFit fit : {WindowFit::None, WindowFit::Tight, WindowFit::Focused}) {
-    for (const Warp warp : {Warp::None, Warp::Psm, Warp::Lispsm, Warp::Tsm})
-      all.push_back({.fit = fit, .warp = warp});
+    for (const Warp warp : {Warp::None, Warp::Psm, Warp::Lispsm, Warp::Tsm}) all.push_back({.fit = fit, .warp = warp});
     for (const int cascades : {2, 3, 4}) all.push_back({.fit = fit, .cascades = cascades});
     all.push_back({.fit = fit, .snap = false});
     all.push_back({.fit = fit, .snap = false, .cascades = 3});

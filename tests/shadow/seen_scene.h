@@ -2,8 +2,8 @@
 // What a camera sees of a scene and what a light faces of that, traced without a GPU: what maps are fitted
 // to.
 
+#include "planar/planar_map.h"
 #include "scene/gbuffer.h"
-#include "shadow/planar_map.h"
 #include "truth/visibility.h"
 
 #include <memory>

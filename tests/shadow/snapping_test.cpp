@@ -36,8 +36,7 @@ class SnappingTest : public gpu::GpuTest {
   }
 
   // Distinct depth images of eight cameras, side by side within `reach` metres.
-  size_t distinctImages(const SeenScene& seen, const Parameterization& map, const MapOptions& options,
-                        double reach) {
+  size_t distinctImages(const SeenScene& seen, const Parameterization& map, const MapOptions& options, double reach) {
     std::set<std::vector<float>> images;
     for (int i = 0; i < 8; ++i) images.insert(depthImage(seen, map, options, {0.0, 0.0, reach * i / 8.0}));
     const std::vector<float>& image = *images.begin();
@@ -52,8 +51,7 @@ class SnappingTest : public gpu::GpuTest {
       const glsl::Ray a = glsl::mapTexelRay(fitted.map, 0, {0.5f, 0.5f});
       const glsl::Ray b = glsl::mapTexelRay(fitted.map, 0, {0.5f, 0.5f + 1.0f / 256.0f});
       const float reach = fitted.zFar - fitted.zNear;
-      const double texel =
-          static_cast<double>(glm::length((a.origin + a.dir * reach) - (b.origin + b.dir * reach)));
+      const double texel = static_cast<double>(glm::length((a.origin + a.dir * reach) - (b.origin + b.dir * reach)));
       // A step along the floor moves the window's two sides by at most that in each axis: at most one
       // crossing each.
       const size_t snapped = distinctImages(seen, map, {.fit = fit}, texel);
@@ -90,8 +88,7 @@ TEST_F(SnappingTest, EveryCascadeIsTheSameWithinATexel) {
   // The finest layer's texel; each layer crosses at most once in each axis within it.
   const auto texel = static_cast<double>(glm::length(a.origin - b.origin));
   EXPECT_LE(distinctImages(seen, directionalParameterization(), {.cascades = 3}, 0.5 * texel), 4u);
-  EXPECT_EQ(distinctImages(seen, directionalParameterization(), {.snap = false, .cascades = 3}, 0.5 * texel),
-            8u);
+  EXPECT_EQ(distinctImages(seen, directionalParameterization(), {.snap = false, .cascades = 3}, 0.5 * texel), 8u);
 }
 
 }  // namespace

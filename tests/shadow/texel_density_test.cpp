@@ -1,5 +1,5 @@
 // Density against windows whose texels are known, and against counting texels.
-#include "shadow/texel_density.h"
+#include "judge/texel_density.h"
 #include "map_fixture.h"
 #include "seen_scene.h"
 
@@ -14,13 +14,11 @@ using test::SeenScene;
 // A sun of elevation e on a floor: a texel of a by b metres across the light covers a b / sin e of it.
 TEST(TexelDensity, OfASunOnAFloorIsTheWindowsTexelsTimesTheSine) {
   for (const double elevation : {90.0, 40.0, 15.0}) {
-    const SeenScene seen =
-        test::see(test::longFloor(), test::alongTheFloor(), test::sun(elevation, 60.0), 32);
+    const SeenScene seen = test::see(test::longFloor(), test::alongTheFloor(), test::sun(elevation, 60.0), 32);
     const FittedMap fitted = seen.fit(directionalParameterization(), {.snap = false}, 512);
     // The window's own size, from the scale of its matrix: 2 / extent.
     const glm::mat4& m = fitted.map.mapLayers[0].clipFromLight;
-    const double texels =
-        0.25 * std::abs(static_cast<double>(m[0][0]) * static_cast<double>(m[1][1])) * 512 * 512;
+    const double texels = 0.25 * std::abs(static_cast<double>(m[0][0]) * static_cast<double>(m[1][1])) * 512 * 512;
     for (size_t i = 0; i < seen.receivers.states.size(); ++i) {
       const SurfaceSample& sample = seen.receivers.samples[i];
       if (seen.receivers.states[i] != PixelState::Scored || sample.normalW.y < 0.999) continue;
@@ -43,8 +41,7 @@ TEST(TexelDensity, IsTheNumberOfTexelsOnASquareMetre) {
     constexpr int kSteps = 400;
     for (int i = 0; i < kSteps; ++i) {
       for (int j = 0; j < kSteps; ++j) {
-        const glm::dvec3 p =
-            middle + size * glm::dvec3((i + 0.5) / kSteps - 0.5, 0.0, (j + 0.5) / kSteps - 0.5);
+        const glm::dvec3 p = middle + size * glm::dvec3((i + 0.5) / kSteps - 0.5, 0.0, (j + 0.5) / kSteps - 0.5);
         const auto point = glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(p)));
         const glm::ivec2 texel = glsl::mapTexel(fitted.map, point.uv);
         met.insert({texel.x, texel.y});

@@ -31,8 +31,7 @@ class UserBiasTest : public gpu::GpuTest {
     }
   }
 
-  std::vector<float> visibility(const test::Rendered& r, const BiasMethod& method,
-                                const glsl::BiasParams& params) {
+  std::vector<float> visibility(const test::Rendered& r, const BiasMethod& method, const glsl::BiasParams& params) {
     const auto image = test::draw(device(), r, method.content, CullMode::Solids);
     VisibilityPass pass(device(), r.view.width, r.view.height);
     pass.setUniforms(shadeUniforms(r.view, r.light, params));
@@ -73,20 +72,17 @@ TEST_F(UserBiasTest, MistakesNameFileAndLine) {
 }
 
 TEST_F(UserBiasTest, ItIsWhatRuns) {
-  const test::Rendered r =
-      test::render(device(), "contact", spotParameterization(), 128, 64, CullMode::Solids);
+  const test::Rendered r = test::render(device(), "contact", spotParameterization(), 128, 64, CullMode::Solids);
   glsl::BiasParams params = defaultBiasParams(r.fitted.map.sceneScale);
   for (const float offset : {0.0f, 0.02f, 0.3f}) {
     params.constantOffset = params.userKnob = offset;
-    EXPECT_EQ(visibility(r, load(kConstant)->method, params), visibility(r, findBias("constant"), params))
-        << offset;
+    EXPECT_EQ(visibility(r, load(kConstant)->method, params), visibility(r, findBias("constant"), params)) << offset;
   }
 }
 
 // Two files in one pass: each runs its own.
 TEST_F(UserBiasTest, TwoOfThemAreTwo) {
-  const test::Rendered r =
-      test::render(device(), "contact", spotParameterization(), 64, 64, CullMode::Solids);
+  const test::Rendered r = test::render(device(), "contact", spotParameterization(), 64, 64, CullMode::Solids);
   VisibilityPass pass(device(), r.view.width, r.view.height);
   pass.setUniforms(shadeUniforms(r.view, r.light, {}));
   const std::string signature = "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap)";
@@ -107,8 +103,7 @@ TEST_F(UserBiasTest, TwoOfThemAreTwo) {
 }
 
 TEST_F(UserBiasTest, WhatDoesNotCompileNamesFileAndLine) {
-  const test::Rendered r =
-      test::render(device(), "contact", spotParameterization(), 32, 32, CullMode::Solids);
+  const test::Rendered r = test::render(device(), "contact", spotParameterization(), 32, 32, CullMode::Solids);
   const auto bias = load(
       "\n\nbool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {\n  return "
       "nonsense;\n}\n");
@@ -124,8 +119,7 @@ TEST_F(UserBiasTest, WhatDoesNotCompileNamesFileAndLine) {
 
 TEST_F(UserBiasTest, TheSampleKeepsPlanesClean) {
   const auto sample = loadUserBias(std::filesystem::path(GNOMON_TEST_DIR) / "../../samples/my_bias.glsl");
-  const test::Rendered r =
-      test::render(device(), "slope", spotParameterization(), 256, 256, CullMode::Solids);
+  const test::Rendered r = test::render(device(), "slope", spotParameterization(), 256, 256, CullMode::Solids);
   glsl::BiasParams params = defaultBiasParams(r.fitted.map.sceneScale);
   params.userKnob = sample->method.knobs.front().defaultValue;
   const std::vector<float> seen = visibility(r, sample->method, params);

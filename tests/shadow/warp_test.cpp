@@ -1,10 +1,10 @@
 // Warps against their papers' own claims, and the one idea all stand on: that each is a matrix on the plane
 // of light rays.
-#include "shadow/warp.h"
+#include "planar/warp.h"
+#include "judge/texel_density.h"
 #include "map_fixture.h"
+#include "planar/convex_body.h"
 #include "seen_scene.h"
-#include "shadow/convex_body.h"
-#include "shadow/texel_density.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +23,7 @@ SeenScene seeLongFloor(double elevation, double azimuth) {
 }
 
 glm::dvec2 uvOf(const FittedMap& fitted, const glm::dvec3& posW) {
-  const glsl::MapPoint point =
-      glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(posW)));
+  const glsl::MapPoint point = glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(posW)));
   EXPECT_TRUE(point.covered);
   return glm::dvec2(point.uv);
 }
@@ -58,10 +57,9 @@ ViewDepths viewDepths(const SeenScene& seen) {
 void expectLiteralPsm(const SeenScene& seen, const FittedMap& fitted, const glm::dvec4& lightW) {
   const ViewDepths depths = viewDepths(seen);
   const glm::dvec3 eye(seen.view.eyeW);
-  const glm::dmat4 camera =
-      glm::perspectiveRH_ZO(2.0 * std::atan(static_cast<double>(seen.view.tanHalfY)), 1.0, depths.nearest,
-                            depths.farthest) *
-      glm::lookAtRH(eye, eye + glm::dvec3(seen.view.forwardW), glm::dvec3(seen.view.upW));
+  const glm::dmat4 camera = glm::perspectiveRH_ZO(2.0 * std::atan(static_cast<double>(seen.view.tanHalfY)), 1.0,
+                                                  depths.nearest, depths.farthest) *
+                            glm::lookAtRH(eye, eye + glm::dvec3(seen.view.forwardW), glm::dvec3(seen.view.upW));
   const glm::dvec4 q = camera * lightW;
   ASSERT_GT(std::abs(q.w), 1e-3);
   const glm::dmat4 look = glm::lookAtRH(glm::dvec3(q) / q.w, glm::dvec3(0, 0, 0.5), glm::dvec3(0, 0, 1));
@@ -109,9 +107,8 @@ TEST(Psm, IsThePapersCompositionForASpotLight) {
 // With the light across the view W is, up to a factor, the distance along the view from the projection
 // centre: that of PSM is the eye; LiSPSM's stands sqrt(n f) behind it.
 TEST(Lispsm, StandsTheRootOfNearTimesFarBehindTheEye) {
-  const SeenScene seen =
-      test::see(test::longFloor(), lookAt("level", {0.2f, 1.7f, 55.0f}, {0.2f, 1.7f, 45.0f}, 0.9f),
-                test::sun(90.0, 90.0), 96);
+  const SeenScene seen = test::see(test::longFloor(), lookAt("level", {0.2f, 1.7f, 55.0f}, {0.2f, 1.7f, 45.0f}, 0.9f),
+                                   test::sun(90.0, 90.0), 96);
   const ViewDepths depths = viewDepths(seen);
   const double behind = std::sqrt(depths.nearest * depths.farthest);
   const FittedMap lispsm = seen.fit(directionalParameterization(), {.warp = Warp::Lispsm});
@@ -122,8 +119,8 @@ TEST(Lispsm, StandsTheRootOfNearTimesFarBehindTheEye) {
   };
   for (const double share : {0.1, 0.4, 0.9}) {
     const double depth = glm::mix(depths.nearest, depths.farthest, share);
-    EXPECT_NEAR(wOf(lispsm, at(depth)) / wOf(lispsm, at(depths.nearest)),
-                (depth + behind) / (depths.nearest + behind), 1e-3);
+    EXPECT_NEAR(wOf(lispsm, at(depth)) / wOf(lispsm, at(depths.nearest)), (depth + behind) / (depths.nearest + behind),
+                1e-3);
     EXPECT_NEAR(wOf(psm, at(depth)) / wOf(psm, at(depths.nearest)), depth / depths.nearest, 1e-3);
   }
 }
@@ -187,8 +184,8 @@ TEST(Warp, IsNotAppliedWhereTheLightShinesAlongTheViewAndSaysSo) {
 
 TEST(Warp, OfALightAmongWhatIsSeenCoversAllOfItAndSaysWhatItCost) {
   size_t notes = 0;
-  for (const glm::dvec3& direction : {glm::dvec3(0.0, -1.0, 0.2), glm::dvec3(0.0, -0.3, 1.0),
-                                      glm::dvec3(0.0, -0.3, -1.0), glm::dvec3(1, -0.3, 0)}) {
+  for (const glm::dvec3& direction :
+       {glm::dvec3(0.0, -1.0, 0.2), glm::dvec3(0.0, -0.3, 1.0), glm::dvec3(0.0, -0.3, -1.0), glm::dvec3(1, -0.3, 0)}) {
     const LightModel spot{.type = LightType::Spot,
                           .positionW = {0.2, 1.5, 48.0},
                           .directionW = glm::normalize(direction),
@@ -208,8 +205,8 @@ TEST(Warp, OfALightAmongWhatIsSeenCoversAllOfItAndSaysWhatItCost) {
 TEST(Warp, KeepsItsRatioAndItsHandAtEveryAngle) {
   for (const double elevation : {8.0, 30.0, 60.0, 90.0}) {
     for (int azimuth = 0; azimuth < 360; azimuth += 30) {
-      const SeenScene seen = test::see(test::longFloor(), test::alongTheFloor(),
-                                       test::sun(elevation, static_cast<double>(azimuth)), 24);
+      const SeenScene seen =
+          test::see(test::longFloor(), test::alongTheFloor(), test::sun(elevation, static_cast<double>(azimuth)), 24);
       for (const Warp warp : kWarps) {
         const FittedMap fitted = seen.fit(directionalParameterization(), {.warp = warp}, 64);
         double least = 1e30, most = 0.0;

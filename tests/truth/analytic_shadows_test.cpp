@@ -33,8 +33,7 @@ class LonePlane : public testing::TestWithParam<Tilt> {
   Shot shoot() const {
     Scene scene = emptyScene();
     addFloor(scene, 0.0, 60.0);
-    moveAll(scene, glm::rotate(glm::dmat4(1.0), GetParam().degrees * kDegree,
-                               glm::normalize(glm::dvec3(2, 0.3, 1))));
+    moveAll(scene, glm::rotate(glm::dmat4(1.0), GetParam().degrees * kDegree, glm::normalize(glm::dvec3(2, 0.3, 1))));
     const LightModel light =
         GetParam().directional ? directionalLight({0.1, -1.0, 0.05}) : pointLight({0.3, 6.0, -0.2});
     return takeShot(std::move(scene), viewFrom({0.5, 5.0, 0.4}, {0, 0, 0}, 0.5, 200, 200), light);
@@ -116,8 +115,7 @@ TEST(Detachment, LeakHasTheAreaThatTheConstantBiasOpens) {
   double area = 0.0;
   size_t outside = 0;
   const double texel = 2.0 * window.halfExtent / window.side;
-  const double stray =
-      texel * (1.0 / std::sin(e) + 1.0 / std::cos(e));  // of u, when the texel's centre is asked
+  const double stray = texel * (1.0 / std::sin(e) + 1.0 / std::cos(e));  // of u, when the texel's centre is asked
   for (size_t i = 0; i < image.labels.size(); ++i) {
     if (image.labels[i] != Label::Leak) continue;
     const glm::dvec3 p = shot.receivers.samples[i].positionW;
@@ -125,8 +123,7 @@ TEST(Detachment, LeakHasTheAreaThatTheConstantBiasOpens) {
     const double t = (p.y - static_cast<double>(camera.eyeW.y)) / dir.y;
     if (p.y < 1e-6) area += pixelArea * t * t / std::abs(dir.y);
     const double u = p.x - w;
-    outside +=
-        p.y < 1e-6 && (u < -1e-6 || u > b * std::cos(e) - w + stray || std::abs(p.z) > l + texel) ? 1 : 0;
+    outside += p.y < 1e-6 && (u < -1e-6 || u > b * std::cos(e) - w + stray || std::abs(p.z) > l + texel) ? 1 : 0;
   }
   const double expected = 2.0 * l * (b * std::cos(e) - w);
   // The strip's far border lies within half a texel's stray; a pixel is 1.6 cm wide and counts as a whole.
@@ -144,11 +141,9 @@ TEST(Detachment, AdaptiveLeaksNothingAtABoxOnAFloor) {
   addFloor(scene, 0.0, 12.0);
   addBox(scene, {0, 0, -1.5}, {0.2, 2, 1.5});
   const LightModel light = directionalLight({1, -1, 0});
-  const Shot shot =
-      takeShot(std::move(scene), viewFrom({1.2, 9.0, 0.02}, {0.7, 0.0, 0.0}, 0.7, 300, 300), light);
-  const ReferenceMap map =
-      traceReferenceMap(*shot.tracer, light,
-                        {.targetW = {0.5, 0, 0}, .halfExtent = 4.0, .side = 512, .near = 0.5, .far = 30.0});
+  const Shot shot = takeShot(std::move(scene), viewFrom({1.2, 9.0, 0.02}, {0.7, 0.0, 0.0}, 0.7, 300, 300), light);
+  const ReferenceMap map = traceReferenceMap(
+      *shot.tracer, light, {.targetW = {0.5, 0, 0}, .halfExtent = 4.0, .side = 512, .near = 0.5, .far = 30.0});
   const LabelImage image = labelShot(shot, map, glsl::kBiasAdaptive, defaultBias());
   // Adaptive's own epsilon, sceneScale * K = 3.4 mm along the ray, opens a strip narrower than a pixel (2.2
   // cm).
@@ -192,8 +187,7 @@ TEST_P(FloatingPlate, GivesEdgesOfATexelAndNeitherAcneNorLeak) {
     const glm::dvec2 texel = map.texelOf(shot.receivers.samples[i].positionW);
     double nearest = 1e9;
     for (int k = 0; k < 4; ++k) {
-      nearest = std::min(nearest,
-                         distanceToLine(texel, map.texelOf(corners[k]), map.texelOf(corners[(k + 1) % 4])));
+      nearest = std::min(nearest, distanceToLine(texel, map.texelOf(corners[k]), map.texelOf(corners[(k + 1) % 4])));
     }
     const bool wrong = image.labels[i] == Label::EdgeShadow || image.labels[i] == Label::EdgeLight;
     const double bound = 0.5 * std::numbers::sqrt2 + 1e-3;
@@ -239,8 +233,7 @@ TEST(Labels, AddUpToTheScoredPixels) {
   EXPECT_GT(shot.receivers.facingAway, 0u);
   EXPECT_GT(shot.receivers.outsideCone, 0u);
   // A window smaller than the cone, so that some pixels are uncovered.
-  const ReferenceMap map =
-      traceReferenceMap(*shot.tracer, light, {.targetW = {0.3, 0, 0.2}, .halfExtent = 0.7});
+  const ReferenceMap map = traceReferenceMap(*shot.tracer, light, {.targetW = {0.3, 0, 0.2}, .halfExtent = 0.7});
   for (const int method : {glsl::kBiasNone, glsl::kBiasConstant, glsl::kBiasSlope, glsl::kBiasAdaptive}) {
     const LabelImage image = labelShot(shot, map, method, defaultBias());
     size_t sum = 0;

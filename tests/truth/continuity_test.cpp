@@ -41,8 +41,7 @@ TEST(Continuity, ConvexCreaseIsOnePiece) {
 TEST(Continuity, ConcaveCornerIsOnePiece) {
   Scene scene = emptyScene();
   addQuad(scene, {0, 0, -5}, {0, 0, 5}, {5, 0, 5}, {5, 0, -5});
-  addQuad(scene, {-0.5, -1, -5}, {-0.5, 4, -5}, {-0.5, 4, 5},
-          {-0.5, -1, 5});  // passes through the floor's level
+  addQuad(scene, {-0.5, -1, -5}, {-0.5, 4, -5}, {-0.5, 4, 5}, {-0.5, -1, 5});  // passes through the floor's level
   addQuad(scene, {-2, 0, -5}, {-2, 0, 5}, {0, 0, 5}, {0, 0, -5});
   EXPECT_TRUE(continuous(scene, {1.0, 0, 0.2}, {-0.5, 1.0, 0.3}));
   EXPECT_TRUE(continuous(scene, {-0.49, 0, 0.2}, {-0.5, 0.01, 0.2}));

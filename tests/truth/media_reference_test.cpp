@@ -38,8 +38,8 @@ class Field : public DensityField {
 };
 
 // The integral by its first formula, midpoints at equal distances: nothing of the reference's.
-glm::dvec3 plainSum(const RayD& view, double end, const MediaLight& light, const MediumModel& medium,
-                    const Lit& lit, int steps) {
+glm::dvec3 plainSum(const RayD& view, double end, const MediaLight& light, const MediumModel& medium, const Lit& lit,
+                    int steps) {
   const glm::dvec3 sigmaT = medium.sigmaS + medium.sigmaA;
   glm::dvec3 sum(0.0);
   for (int i = 0; i < steps; ++i) {
@@ -72,8 +72,8 @@ struct Referred {
 
 Referred refer(const Setting& setting, const MediaReferenceOptions& options = {}) {
   const Tracer tracer(setting.scene);
-  const Receivers receivers = computeReceivers(
-      tracer, setting.camera, pointLight(setting.lights[0].positionW), traceIds(tracer, setting.camera));
+  const Receivers receivers = computeReceivers(tracer, setting.camera, pointLight(setting.lights[0].positionW),
+                                               traceIds(tracer, setting.camera));
   Referred referred{.ends = viewRayEnds(setting.camera, receivers, setting.medium.reach)};
   referred.reference =
       computeMediaReference(tracer, setting.lights, setting.camera, referred.ends, setting.medium, options);
@@ -88,11 +88,9 @@ double worstDifference(const Setting& setting, const Referred& referred, const L
       const auto pixel = static_cast<size_t>(y * setting.camera.width + x);
       glm::dvec3 sum(0.0);
       for (const MediaLight& light : setting.lights)
-        sum +=
-            plainSum(pixelRay(setting.camera, x, y), referred.ends[pixel], light, setting.medium, lit, steps);
+        sum += plainSum(pixelRay(setting.camera, x, y), referred.ends[pixel], light, setting.medium, lit, steps);
       for (int c = 0; c < 3; ++c)
-        worst = std::max(worst,
-                         std::abs(static_cast<double>(referred.reference.inScattered.at(x, y)[c]) - sum[c]));
+        worst = std::max(worst, std::abs(static_cast<double>(referred.reference.inScattered.at(x, y)[c]) - sum[c]));
     }
   }
   return worst / referred.reference.mean;
@@ -111,8 +109,8 @@ TEST_P(Unshadowed, IsThePlainIntegral) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, Unshadowed,
-                         testing::Values(glm::dvec3(0.33, 1.2, -1.0), glm::dvec3(5, 2, 3),
-                                         glm::dvec3(0.1, 1, 9), glm::dvec3(0.02, 1.03, 3.9)));
+                         testing::Values(glm::dvec3(0.33, 1.2, -1.0), glm::dvec3(5, 2, 3), glm::dvec3(0.1, 1, 9),
+                                         glm::dvec3(0.02, 1.03, 3.9)));
 
 // With hardly any extinction the integral of dphi / aside is the angle at the light over the distance of the
 // ray.
@@ -165,8 +163,7 @@ TEST(MediaReference, BehindASphereTheShadowIsACone) {
     const double distance = glm::length(axis), r = glm::length(towards);
     const bool inCone =
         glm::dot(towards, axis) / (r * distance) > std::sqrt(1.0 - radius * radius / (distance * distance));
-    return !(inCone && r > std::sqrt(distance * distance - radius * radius)) &&
-           glm::length(p - center) > radius;
+    return !(inCone && r > std::sqrt(distance * distance - radius * radius)) && glm::length(p - center) > radius;
   };
   EXPECT_LT(worstDifference(setting, referred, lit, 100000), 1e-3);
   EXPECT_GT(worstDifference(setting, referred, kEverywhere, 2000), 0.05);
@@ -297,8 +294,7 @@ TEST(MediaReference, ASlabOfDensityDimsBothLegs) {
                (phaseFunction(-0.3, glm::dot(towards / r, -view.dir)) / (r * r) * (to - from) / kSteps);
       }
       for (int c = 0; c < 3; ++c)
-        worst = std::max(worst,
-                         std::abs(static_cast<double>(referred.reference.inScattered.at(x, y)[c]) - sum[c]));
+        worst = std::max(worst, std::abs(static_cast<double>(referred.reference.inScattered.at(x, y)[c]) - sum[c]));
     }
   }
   EXPECT_LT(worst / referred.reference.mean, referred.reference.bound);
@@ -352,8 +348,7 @@ TEST(BlockPoints, OnlyWhatStandsBeforeThePointBlocks) {
   }
   std::vector<uint8_t> blocked(points.size(), 7);
   tracer.blockPoints(light, points, blocked);
-  for (size_t i = 0; i < points.size(); ++i)
-    EXPECT_EQ(blocked[i], expected[i]) << points[i].x << " " << points[i].y;
+  for (size_t i = 0; i < points.size(); ++i) EXPECT_EQ(blocked[i], expected[i]) << points[i].x << " " << points[i].y;
 }
 
 }  // namespace

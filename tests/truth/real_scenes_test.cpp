@@ -31,8 +31,8 @@ std::vector<LightModel> lightsOf(const Scene& scene) {
   if (lights.size() > 4) lights.resize(4);
   if (lights.empty()) {
     const Bounds bounds = computeBounds(scene);
-    lights.push_back(pointLight(glm::dvec3(bounds.center()) +
-                                glm::dvec3(0.1, 0.4, 0.2) * glm::dvec3(bounds.upper - bounds.lower)));
+    lights.push_back(
+        pointLight(glm::dvec3(bounds.center()) + glm::dvec3(0.1, 0.4, 0.2) * glm::dvec3(bounds.upper - bounds.lower)));
   }
   return lights;
 }
@@ -52,10 +52,9 @@ TEST_P(RealScene, HangsOnTheMarginAtFewerThanOnePixelInTenThousand) {
     const Truth truth = computeTruth(tracer, light, receivers);
     scored += receivers.scored;
     flips += std::max(truth.marginFlipsHalf, truth.marginFlipsDouble);
-    std::cout << "light at " << light.positionW.x << ' ' << light.positionW.y << ' ' << light.positionW.z
-              << ": scored " << receivers.scored << ", lit " << truth.litCount << ", flips at half "
-              << truth.marginFlipsHalf << ", at double " << truth.marginFlipsDouble << ", margin "
-              << truth.margin << " m\n";
+    std::cout << "light at " << light.positionW.x << ' ' << light.positionW.y << ' ' << light.positionW.z << ": scored "
+              << receivers.scored << ", lit " << truth.litCount << ", flips at half " << truth.marginFlipsHalf
+              << ", at double " << truth.marginFlipsDouble << ", margin " << truth.margin << " m\n";
   }
   EXPECT_GT(scored, 1000u);
   EXPECT_LT(static_cast<double>(flips), 1e-4 * static_cast<double>(scored));

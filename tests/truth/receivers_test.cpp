@@ -39,8 +39,8 @@ TEST(Receivers, LieOnTheirPixelsRayAndOnTheirTriangle) {
       const SurfaceSample& sample = shot.receivers.samples[pixel];
       const glm::dvec3 eye(camera.eyeW);
       const glm::dvec3 dir = glm::normalize(pixelDirectionD(camera, x, y));
-      offRay = std::max(
-          offRay, glm::length(glm::cross(sample.positionW - eye, dir)) / glm::length(sample.positionW - eye));
+      offRay =
+          std::max(offRay, glm::length(glm::cross(sample.positionW - eye, dir)) / glm::length(sample.positionW - eye));
       glm::dvec3 at[3];
       shot.tracer->corners(sample.primitive, at);
       offPlane = std::max(offPlane, std::abs(glm::dot(sample.normalW, sample.positionW - at[0])));
@@ -116,9 +116,7 @@ TEST(Receivers, AreClampedToTheTriangleTheGBufferNames) {
 TEST(SurfacePoint, InFloatStaysWithinUlpsOfThePlane) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto point = [&](double scale) {
-    return scale * glm::dvec3(unit(random), unit(random), unit(random));
-  };
+  const auto point = [&](double scale) { return scale * glm::dvec3(unit(random), unit(random), unit(random)); };
   double offPlane = 0.0, aside = 0.0;
   for (int i = 0; i < 100000; ++i) {
     glm::vec3 cornersF[3];

@@ -32,8 +32,7 @@ glm::dmat4 clipFromLight(const LightModel& light, const MapWindow& window, const
 }  // namespace
 
 glm::dvec2 ReferenceMap::texelOf(const glm::dvec3& pointW) const {
-  return glm::dvec2(glsl::mapProject(map, glm::vec3(pointW - frameOriginW)).uv) *
-         static_cast<double>(map.side);
+  return glm::dvec2(glsl::mapProject(map, glm::vec3(pointW - frameOriginW)).uv) * static_cast<double>(map.side);
 }
 
 RayD ReferenceMap::texelRay(const glm::dvec3& pointW) const {
@@ -82,8 +81,7 @@ std::vector<Verdict> predict(const ReferenceMap& map, const Receivers& receivers
                              const glsl::BiasParams& params) {
   std::vector<Verdict> verdicts(receivers.states.size(), Verdict::NotAsked);
   for (size_t i = 0; i < verdicts.size(); ++i) {
-    if (receivers.states[i] == PixelState::Scored)
-      verdicts[i] = map.verdict(receivers.samples[i], method, params);
+    if (receivers.states[i] == PixelState::Scored) verdicts[i] = map.verdict(receivers.samples[i], method, params);
   }
   return verdicts;
 }

@@ -33,8 +33,7 @@ std::vector<glsl::PrimitiveId> traceIds(const Tracer& tracer, const glsl::Camera
     for (int x = 0; x < camera.width; ++x) {
       const RayD ray{glm::dvec3(camera.eyeW), glm::normalize(pixelDirectionD(camera, x, y))};
       const std::optional<SurfaceHit> hit = tracer.firstHit(ray);
-      glsl::PrimitiveId& id =
-          ids[static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x)];
+      glsl::PrimitiveId& id = ids[static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x)];
       if (hit) id = {hit->primitive.instance + 1, hit->primitive.triangle};
     }
   });
@@ -53,8 +52,7 @@ Shot takeShot(Scene scene, const glsl::CameraView& camera, const LightModel& lig
 }
 
 LabelImage labelShot(const Shot& shot, const ReferenceMap& map, int method, const glsl::BiasParams& params) {
-  return labelPixels(*shot.tracer, shot.light, shot.receivers, shot.truth,
-                     predict(map, shot.receivers, method, params),
+  return labelPixels(*shot.tracer, shot.light, shot.receivers, shot.truth, predict(map, shot.receivers, method, params),
                      [&](size_t pixel) { return map.texelRay(shot.receivers.samples[pixel].positionW); });
 }
 

@@ -27,8 +27,7 @@ struct Asked {
   glm::dvec3 normal;
 };
 
-Asked askPoint(const Tracer& tracer, const glm::dvec3& lightW, const Primitive& own,
-               const glm::dvec3& weights) {
+Asked askPoint(const Tracer& tracer, const glm::dvec3& lightW, const Primitive& own, const glm::dvec3& weights) {
   glm::dvec3 at[3];
   tracer.corners(own, at);
   const glm::dvec3 point = at[0] * weights.x + at[1] * weights.y + at[2] * weights.z;
@@ -128,8 +127,8 @@ TEST_P(OwnAndCoplanar, NeverBlock) {
     const double margin = endMargin(scene);
     for (int i = 0; i < 500; ++i) {
       const double lowest = i % 2 == 0 ? 0.5 : 0.02;  // half of the lights graze
-      const glm::dvec3 lightW(
-          moved * glm::dvec4(3.0 * unit(random), lowest + std::abs(unit(random)), 3.0 * unit(random), 1));
+      const glm::dvec3 lightW(moved *
+                              glm::dvec4(3.0 * unit(random), lowest + std::abs(unit(random)), 3.0 * unit(random), 1));
       const Primitive own{static_cast<uint32_t>(i % 6), 0};
       const double u = 0.5 + 0.5 * unit(random), v = (1.0 - u) * (0.5 + 0.5 * unit(random));
       ++asked;
@@ -193,9 +192,7 @@ Brute bruteForce(const Tracer& tracer, const Scene& scene, const Asked& asked, d
 Scene makeSoup(bool instanced, double offset) {
   std::mt19937 random(instanced ? 5 : 3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto point = [&](double scale) {
-    return scale * glm::dvec3(unit(random), unit(random), unit(random));
-  };
+  const auto point = [&](double scale) { return scale * glm::dvec3(unit(random), unit(random), unit(random)); };
   Scene scene = emptyScene();
   const int meshes = instanced ? 4 : 40;
   for (int m = 0; m < meshes; ++m) {
@@ -234,8 +231,8 @@ TEST_P(BruteForce, AgreesWithALoopInDouble) {
   const double bound = 0x1p-22 * (GetParam().offset + 8.0) * (GetParam().instanced ? 8.0 : 1.0);
   size_t differing = 0, beyond = 0, blocked = 0;
   for (int i = 0; i < 100000; ++i) {
-    const glm::dvec3 lightW(glm::vec3(glm::dvec3(GetParam().offset) +
-                                      4.0 * glm::dvec3(unit(random), unit(random), unit(random))));
+    const glm::dvec3 lightW(
+        glm::vec3(glm::dvec3(GetParam().offset) + 4.0 * glm::dvec3(unit(random), unit(random), unit(random))));
     const Primitive own{static_cast<uint32_t>(random() % scene.instances.size()), 0};
     const double u = 0.5 + 0.5 * unit(random), v = (1.0 - u) * (0.5 + 0.5 * unit(random));
     const Asked asked = askPoint(tracer, lightW, own, {1.0 - u - v, u, v});
@@ -252,8 +249,7 @@ TEST_P(BruteForce, AgreesWithALoopInDouble) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Soups, BruteForce,
-                         testing::Values(Soup{false, 0.0}, Soup{true, 0.0}, Soup{false, 1000.0},
-                                         Soup{true, 100.0}));
+                         testing::Values(Soup{false, 0.0}, Soup{true, 0.0}, Soup{false, 1000.0}, Soup{true, 100.0}));
 
 TEST(Packets, SayWhatSingleRaysSay) {
   const Scene scene = makeSoup(true, 0.0);
@@ -307,9 +303,7 @@ TEST(FarLight, StillSeesTheSceneInFullPrecision) {
     const glm::dvec3 q(x, 0.5, 0.1);
     const glm::dvec3 p = q - up * (0.5 / up.y);
     const glm::dvec3 lightW = q + up * 1e6;
-    EXPECT_EQ(tracer.occluded(rayBetween(lightW, p), glm::length(p - lightW), {0, 0}, {0, 1, 0}, 1e-6),
-              x < 0.0)
-        << x;
+    EXPECT_EQ(tracer.occluded(rayBetween(lightW, p), glm::length(p - lightW), {0, 0}, {0, 1, 0}, 1e-6), x < 0.0) << x;
     const std::optional<SurfaceHit> hit = tracer.firstHit(rayBetween(lightW, p));
     ASSERT_TRUE(hit.has_value());
     EXPECT_EQ(hit->primitive.instance, x < 0.0 ? 1u : 0u);

@@ -42,12 +42,10 @@ TEST(Truth, ShadowOfABoxHasItsAnalyticOutline) {
   Scene scene = emptyScene();
   const int floor = addFloor(scene, 0.0, 10.0);
   addBox(scene, {-0.5, 0, -0.5}, {0.5, 1, 0.5});
-  const Shot shot =
-      takeShot(std::move(scene), viewFrom({2, 6, 3}, {0, 0, 0}, 0.7, 300, 300), pointLight({0, 3, 0}));
+  const Shot shot = takeShot(std::move(scene), viewFrom({2, 6, 3}, {0, 0, 0}, 0.7, 300, 300), pointLight({0, 3, 0}));
   for (size_t i = 0; i < shot.truth.lit.size(); ++i) {
     const SurfaceSample& sample = shot.receivers.samples[i];
-    if (shot.receivers.states[i] != PixelState::Scored ||
-        sample.primitive.instance != static_cast<uint32_t>(floor))
+    if (shot.receivers.states[i] != PixelState::Scored || sample.primitive.instance != static_cast<uint32_t>(floor))
       continue;
     const double reach = std::max(std::abs(sample.positionW.x), std::abs(sample.positionW.z));
     EXPECT_TRUE((shot.truth.lit[i] == 1) == (reach > 0.75) || std::abs(reach - 0.75) < 1e-6) << reach;
@@ -87,9 +85,8 @@ TEST(Truth, ConvexSurfaceDoesNotShadowItself) {
     Scene scene = emptyScene();
     const glm::dvec3 center = offset * glm::dvec3(1, 1, -1);
     addSphere(scene, center, 1.0, 60, 120);
-    const Shot shot =
-        takeShot(std::move(scene), viewFrom(center + glm::dvec3(2, 2, 3), center, 0.6, 300, 300),
-                 pointLight(center + glm::dvec3(5, 4, 1)));
+    const Shot shot = takeShot(std::move(scene), viewFrom(center + glm::dvec3(2, 2, 3), center, 0.6, 300, 300),
+                               pointLight(center + glm::dvec3(5, 4, 1)));
     EXPECT_EQ(shot.truth.litCount, shot.receivers.scored) << offset;
     EXPECT_GT(shot.receivers.scored, 20000u);
   }
@@ -99,8 +96,7 @@ TEST(Truth, SaysTheSameTwice) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 10.0);
   addSphere(scene, {0, 1, 0}, 0.7, 30, 40);
-  const Shot shot =
-      takeShot(std::move(scene), viewFrom({2, 6, 3}, {0, 0, 0}, 0.7, 200, 200), pointLight({0, 3, 0}));
+  const Shot shot = takeShot(std::move(scene), viewFrom({2, 6, 3}, {0, 0, 0}, 0.7, 200, 200), pointLight({0, 3, 0}));
   const Truth again = computeTruth(*shot.tracer, shot.light, shot.receivers);
   EXPECT_EQ(again.lit, shot.truth.lit);
   EXPECT_EQ(again.marginFlipsDouble, shot.truth.marginFlipsDouble);

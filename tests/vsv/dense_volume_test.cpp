@@ -1,5 +1,5 @@
 // A volume as bits and as boundaries, and the occupancy rule by brute force.
-#include "vsv/dense_volume.h"
+#include "vsv/check/dense_volume.h"
 #include "volumes_by_hand.h"
 
 #include <gtest/gtest.h>

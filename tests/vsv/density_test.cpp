@@ -21,8 +21,7 @@ using test::MediaWorld;
 using test::relativeRmse;
 using test::TemporaryFolder;
 
-openvdb::FloatGrid::Ptr gridOf(const openvdb::CoordBBox& box,
-                               const std::function<float(const openvdb::Coord&)>& at,
+openvdb::FloatGrid::Ptr gridOf(const openvdb::CoordBBox& box, const std::function<float(const openvdb::Coord&)>& at,
                                const openvdb::math::Transform::Ptr& transform) {
   openvdb::initialize();
   const auto grid = openvdb::FloatGrid::create(0.0f);
@@ -67,9 +66,7 @@ class DensityGridTest : public ::testing::Test {
 // Trilinear interpolation gives a linear field back exactly, wherever the file puts it.
 TEST_F(DensityGridTest, ValuesAreWhereTheFileHasThem) {
   const auto transform = awkwardTransform();
-  const auto linear = [](const openvdb::Vec3d& at) {
-    return 10.0 + 0.5 * at.x() - 0.25 * at.y() + 0.125 * at.z();
-  };
+  const auto linear = [](const openvdb::Vec3d& at) { return 10.0 + 0.5 * at.x() - 0.25 * at.y() + 0.125 * at.z(); };
   write(path("a.vdb"),
         {gridOf(
             openvdb::CoordBBox({-5, -4, -9}, {6, 14, 7}),
@@ -112,10 +109,9 @@ TEST_F(DensityGridTest, IsScaledAboutItsCentreAndThenMoved) {
 }
 
 TEST_F(DensityGridTest, WhatIsBelowNothingIsNothing) {
-  write(path("a.vdb"),
-        {gridOf(
-            openvdb::CoordBBox({0, 0, 0}, {7, 7, 7}), [](const openvdb::Coord&) { return -1.0f; },
-            openvdb::math::Transform::createLinearTransform(1.0))});
+  write(path("a.vdb"), {gridOf(
+                           openvdb::CoordBBox({0, 0, 0}, {7, 7, 7}), [](const openvdb::Coord&) { return -1.0f; },
+                           openvdb::math::Transform::createLinearTransform(1.0))});
   EXPECT_EQ(DensityGrid(path("a.vdb"), {}).at({3, 3, 3}), 0.0);
 }
 
@@ -192,8 +188,8 @@ TEST_F(DensityGridTest, GeneratedOnesAreTheSameEachTimeAndFillTheBounds) {
       most = std::max(most, value);
       otherSeed += std::abs(value - c.at(at));
     }
-    std::printf("%s: %llu voxels, mean %.3g, most %.3g\n", kind.name,
-                static_cast<unsigned long long>(first.voxels), sum / 20000, most);
+    std::printf("%s: %llu voxels, mean %.3g, most %.3g\n", kind.name, static_cast<unsigned long long>(first.voxels),
+                sum / 20000, most);
     EXPECT_GT(sum, 200.0) << kind.name;
     EXPECT_GT(most, 0.5) << kind.name;
     EXPECT_LE(most, 2.0 + 1e-6) << kind.name;
@@ -225,8 +221,7 @@ TEST_F(DensityOnTheGpu, IsThatOfTheCpu) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
   const auto grid = gridOf(
-      openvdb::CoordBBox({-20, -20, -20}, {20, 20, 20}),
-      [&](const openvdb::Coord&) { return unit(random) - 0.2f; },
+      openvdb::CoordBBox({-20, -20, -20}, {20, 20, 20}), [&](const openvdb::Coord&) { return unit(random) - 0.2f; },
       openvdb::math::Transform::createLinearTransform(1.0));
   grid->tree().addTile(1, openvdb::Coord(8, 8, 8), 0.75f, true);
   grid->tree().addTile(2, openvdb::Coord(128, 0, 0), 0.5f, true);
@@ -240,9 +235,8 @@ TEST_F(DensityOnTheGpu, IsThatOfTheCpu) {
     queries[n].posI = n % 4 == 0 ? glm::mix(bounds.lower, bounds.upper, at) : (at - 0.5f) * 42.0f;
     if (n % 16 == 1) queries[n].posI = glm::floor(queries[n].posI);  // on voxels
   }
-  const auto answers =
-      gpu::runKernel<DensityQuery, float>(device(), GNOMON_TEST_SHADER("evaluate_density.comp.glsl"), queries,
-                                          {{glsl::kBindDensity, buffers.words}});
+  const auto answers = gpu::runKernel<DensityQuery, float>(device(), GNOMON_TEST_SHADER("evaluate_density.comp.glsl"),
+                                                           queries, {{glsl::kBindDensity, buffers.words}});
   size_t some = 0;
   for (size_t n = 0; n < queries.size(); ++n) {
     const double expected = density.at(glm::dvec3(queries[n].posI));
@@ -271,8 +265,7 @@ TEST_F(DensityOnTheGpu, AConstantGridIsTheHomogeneousMedium) {
     const double samples = relativeRmse(dense.scattered(march), homogeneous.scattered(march));
     const double runs =
         relativeRmse(dense.scattered({Integrator::Runs, 1024}), homogeneous.scattered({Integrator::Runs}));
-    std::printf("%s: march against march %.3g, bits at 1024 samples against runs %.3g\n", scene, samples,
-                runs);
+    std::printf("%s: march against march %.3g, bits at 1024 samples against runs %.3g\n", scene, samples, runs);
     EXPECT_LT(samples, 1e-3);
     EXPECT_LT(runs, 0.05);
   }
@@ -285,8 +278,8 @@ glm::dvec3 marched(const MediaWorld& world, const glm::dvec3& endW, int steps) {
   const glm::dvec3 eye(world.view.eyeW), sigmaT = glm::dvec3(medium.sigmaS) + glm::dvec3(medium.sigmaA);
   const double length = glm::length(endW - eye);
   const glm::dvec3 dir = (endW - eye) / length;
-  const glm::vec2 within = glsl::rayWithinBounds(world.density->place(), world.view.eyeW, glm::vec3(dir),
-                                                 static_cast<float>(length));
+  const glm::vec2 within =
+      glsl::rayWithinBounds(world.density->place(), world.view.eyeW, glm::vec3(dir), static_cast<float>(length));
   if (within.x >= within.y) return glm::dvec3(0.0);
   const double step = (static_cast<double>(within.y) - within.x) / steps;
   double passed = 0.0;
@@ -299,8 +292,7 @@ glm::dvec3 marched(const MediaWorld& world, const glm::dvec3& endW, int steps) {
     for (int i = 0; i < kFine && here > 0.0; ++i)
       toLight += world.density->at(light.positionW + fromLight * ((i + 0.5) / kFine)) * r / kFine;
     const double phase = glsl::phaseFunction(medium.g, static_cast<float>(-glm::dot(fromLight, dir) / r));
-    sum += glm::dvec3(medium.sigmaS) * glm::exp(-sigmaT * (passed + 0.5 * here + toLight)) *
-           (phase / (r * r) * here);
+    sum += glm::dvec3(medium.sigmaS) * glm::exp(-sigmaT * (passed + 0.5 * here + toLight)) * (phase / (r * r) * here);
     passed += here;
   }
   return sum * glm::dvec3(light.intensity);
@@ -316,8 +308,7 @@ TEST_F(DensityOnTheGpu, TheTableOfDepthsToTheLightIsGoodToAPercentOfTheMean) {
     MediaWorld world(device(), setup);
     const std::vector<glm::vec3> measured = world.scattered({Integrator::Runs, 64});
     std::vector<glm::vec3> expected;
-    for (size_t i = 0; i + 1 < world.endsW.size(); ++i)
-      expected.emplace_back(marched(world, world.endsW[i], 64));
+    for (size_t i = 0; i + 1 < world.endsW.size(); ++i) expected.emplace_back(marched(world, world.endsW[i], 64));
     const double error = relativeRmse(measured, expected);
     std::printf("light at (%g, %g, %g): %.3g\n", lightW.x, lightW.y, lightW.z, error);
     EXPECT_LT(error, 0.01);
@@ -345,8 +336,8 @@ TEST_F(DensityOnTheGpu, SurfacesAreAttenuatedByWhatTheTablesSay) {
     visibility.record(commands, world.buffers, world.gbuffer, *world.cube, findBias("adaptive"), false);
     world.pass.recordTable(commands, *world.volume, setup.light);
     commands.barrier("visibility and table are written -> surfaces and pixels read them");
-    world.pass.record(commands, world.buffers, world.gbuffer, *world.volume, setup.light,
-                      {Integrator::Runs, 128}, false);
+    world.pass.record(commands, world.buffers, world.gbuffer, *world.volume, setup.light, {Integrator::Runs, 128},
+                      false);
     commands.barrier("depths to the eye are written -> surfaces read them");
     world.pass.recordSurfaces(commands, world.buffers, world.gbuffer, setup.light, visibility.uniforms(),
                               visibility.visibility(), false);

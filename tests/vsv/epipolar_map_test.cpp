@@ -229,8 +229,8 @@ TEST_F(EpipolarMapOnTheGpu, PointsColumnsAndVoxelsAreThoseOfTheCpu) {
   for (const ShadowMap& map : maps()) {
     const EpipolarGrid& grid = map.epipolar;
     const std::vector<EpipolarQuery> queries = queriesFor(map, size_t{1} << 17);
-    const gpu::Buffer uniforms = gpu::createBufferWith(
-        device(), "map", std::vector<MapUniforms>{{.shadowMap = map}}, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    const gpu::Buffer uniforms = gpu::createBufferWith(device(), "map", std::vector<MapUniforms>{{.shadowMap = map}},
+                                                       VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     const auto answers = gpu::runKernel<EpipolarQuery, EpipolarAnswer>(
         device(), GNOMON_TEST_SHADER("evaluate_round_trip.comp.glsl"), queries, {{kBindMap, uniforms}});
     size_t otherColumn = 0, otherVoxel = 0;
@@ -239,8 +239,8 @@ TEST_F(EpipolarMapOnTheGpu, PointsColumnsAndVoxelsAreThoseOfTheCpu) {
       const EpipolarAnswer& gpu = answers[n];
       ASSERT_EQ(gpu.covered, cpu.covered);
       ASSERT_NEAR(gpu.depth * alphaUpper(grid), cpu.depth * alphaUpper(grid), kAngle);
-      ASSERT_NEAR(gpu.uv.y * float(grid.phiCount) * grid.phiStep,
-                  cpu.uv.y * float(grid.phiCount) * grid.phiStep, kAngle);
+      ASSERT_NEAR(gpu.uv.y * float(grid.phiCount) * grid.phiStep, cpu.uv.y * float(grid.phiCount) * grid.phiStep,
+                  kAngle);
       ASSERT_NEAR(gpu.uv.x * float(grid.thetaCount) * grid.thetaStep,
                   cpu.uv.x * float(grid.thetaCount) * grid.thetaStep, kAngle);
       if (mapTexel(map, gpu.uv) != mapTexel(map, cpu.uv)) {

@@ -1,9 +1,9 @@
 // The exact volume against closed forms, and why a boundary is off where a source is known to err.
-#include "vsv/exact_volume.h"
+#include "vsv/check/exact_volume.h"
 #include "tests/truth/scenes_by_hand.h"
 #include "truth/visibility.h"
 #include "volumes_by_hand.h"
-#include "vsv/volume_check.h"
+#include "vsv/check/volume_check.h"
 
 #include <gtest/gtest.h>
 
@@ -73,9 +73,7 @@ class BoundaryErrorsTest : public ::testing::Test {
   }
 
   // As a coarse map would: every fourth column each way stands for its neighbours.
-  RayD coarseRay(int theta, int phi) const {
-    return columnRayW(frame_, grid_, theta / 4 * 4 + 2, phi / 4 * 4 + 2);
-  }
+  RayD coarseRay(int theta, int phi) const { return columnRayW(frame_, grid_, theta / 4 * 4 + 2, phi / 4 * 4 + 2); }
   ColumnBoundaries coarseBoundaries() const {
     ColumnBoundaries coarse = exact_.boundaries;
     std::vector<float> occluders(columnCount(grid_));
@@ -85,9 +83,9 @@ class BoundaryErrorsTest : public ::testing::Test {
         const double r = exact_.distance[from];
         const double angle = grid_.phiLower + (phi + 0.5) * grid_.phiStep;
         occluders[columnIndex(grid_, theta, phi)] =
-            std::isinf(r) ? HUGE_VALF
-                          : static_cast<float>(
-                                std::atan2(r * std::sin(angle), grid_.eyeDistance - r * std::cos(angle)));
+            std::isinf(r)
+                ? HUGE_VALF
+                : static_cast<float>(std::atan2(r * std::sin(angle), grid_.eyeDistance - r * std::cos(angle)));
       }
     }
     return impliedBoundaries(grid_, occluders);
@@ -141,13 +139,12 @@ TEST_F(BoundaryErrorsTest, SilhouettesAndResolutionAreToldApart) {
       if (measured.first[c] == exact_.boundaries.first[c]) continue;
       const auto own = tracer_->firstHit(columnRayW(frame_, grid_, theta, phi));
       const auto other = tracer_->firstHit(coarseRay(theta, phi));
-      const bool onePiece = own.has_value() == other.has_value() &&
-                            (!own || own->primitive.instance == other->primitive.instance);
+      const bool onePiece =
+          own.has_value() == other.has_value() && (!own || own->primitive.instance == other->primitive.instance);
       ++(onePiece ? resolution : silhouettes);
     }
   }
-  const BoundaryErrors errors =
-      compare(measured, {.rayW = [&](int theta, int phi) { return coarseRay(theta, phi); }});
+  const BoundaryErrors errors = compare(measured, {.rayW = [&](int theta, int phi) { return coarseRay(theta, phi); }});
   EXPECT_EQ(countOf(errors, BoundaryCause::Silhouette), silhouettes);
   EXPECT_EQ(countOf(errors, BoundaryCause::Resolution), resolution);
   EXPECT_EQ(sum(errors.histogram), errors.columns);
@@ -166,8 +163,7 @@ TEST_F(BoundaryErrorsTest, WhatASourceDoesNotCoverIsCountedApart) {
     blind.first[c] = grid_.alphaCount;
     ++floorColumns;
   }
-  const BoundaryErrors errors =
-      compare(blind, {.covers = [](const glm::dvec3& posW) { return posW.y > 0.5; }});
+  const BoundaryErrors errors = compare(blind, {.covers = [](const glm::dvec3& posW) { return posW.y > 0.5; }});
   EXPECT_EQ(countOf(errors, BoundaryCause::Outside), floorColumns);
   EXPECT_EQ(errors.histogram[0], errors.columns - floorColumns);
   EXPECT_GT(floorColumns, 1000u);
@@ -195,8 +191,7 @@ TEST_F(BoundaryErrorsTest, WithoutARayOfItsOwnASilhouetteIsWhereOneIsTouched) {
   const RayD rim = columnRayW(frame_, grid_, 5, 40), plain = columnRayW(frame_, grid_, 120, 40);
   ASSERT_LT(rim.dir.y, 0.0);
   const glm::dvec3 p = rim.origin + rim.dir * (-1.0 / rim.dir.y);  // at height 1
-  addQuad(scene, {p.x + 1e-8, 1, p.z - 1}, {p.x + 1, 1, p.z - 1}, {p.x + 1, 1, p.z + 1},
-          {p.x + 1e-8, 1, p.z + 1});
+  addQuad(scene, {p.x + 1e-8, 1, p.z - 1}, {p.x + 1, 1, p.z - 1}, {p.x + 1, 1, p.z + 1}, {p.x + 1e-8, 1, p.z + 1});
   ASSERT_LT(plain.dir.y, 0.0);
   const Tracer tracer(scene);
   const ExactVolume exact = traceColumns(tracer, frame_, grid_);

@@ -23,11 +23,10 @@ MediaSetup emptyMediaSetup(const glm::vec3& eyeW, const glm::vec3& targetW, cons
   MediaSetup setup;
   const glm::vec3 behind = eyeW + 100.0f * (eyeW - targetW);
   setup.scene.materials.emplace_back();
-  setup.scene.meshes.push_back(
-      {.positions = {behind, behind + glm::vec3(1e-3f, 0, 0), behind + glm::vec3(0, 1e-3f, 0)},
-       .normals = std::vector<glm::vec3>(3, {0, 0, 1}),
-       .uvs = std::vector<glm::vec2>(3),
-       .indices = {0, 1, 2}});
+  setup.scene.meshes.push_back({.positions = {behind, behind + glm::vec3(1e-3f, 0, 0), behind + glm::vec3(0, 1e-3f, 0)},
+                                .normals = std::vector<glm::vec3>(3, {0, 0, 1}),
+                                .uvs = std::vector<glm::vec2>(3),
+                                .indices = {0, 1, 2}});
   setup.scene.instances.push_back({});
   setup.camera = lookAt("camera", eyeW, targetW, 1.0f);
   setup.pictureSide = 40;  // each pixel is integrated on the CPU, too
@@ -53,12 +52,8 @@ MediaWorld::MediaWorld(const gpu::Device& device, const MediaSetup& given)
   receivers = computeReceivers(tracer, view, light, downloadPrimitiveIds(device, gbuffer, buffers));
   if (setup.medium.reach == 0.0f) setup.medium.reach = defaultReach(setup.scene, view.eyeW);
   endsW = mediaReceiversW(view, receivers, setup.medium.reach);
-  const FitInput input{.scene = setup.scene,
-                       .light = light,
-                       .receiversW = endsW,
-                       .side = setup.mapSide,
-                       .camera = view,
-                       .options = {}};
+  const FitInput input{
+      .scene = setup.scene, .light = light, .receiversW = endsW, .side = setup.mapSide, .camera = view, .options = {}};
   fittedCube_ = cubeParameterization().fit(input);
   FitInput paraboloidInput = input;
   paraboloidInput.side = static_cast<int>(setup.mapSide * std::sqrt(3.0));  // as many texels
@@ -141,13 +136,12 @@ glm::dvec3 unshadowedLight(const glsl::Medium& medium, const MediaLightSource& l
     const double r = glm::length(fromLight);
     const double x = 1.0 + g * g - 2.0 * g * glm::dot(fromLight / r, -dir);
     const double phase = (1.0 - g * g) / (4.0 * std::numbers::pi * std::pow(x, 1.5));
-    return glm::dvec3(medium.sigmaS) * glm::exp(-sigmaT * (s + r)) * glm::dvec3(light.intensity) * phase /
-           (r * r);
+    return glm::dvec3(medium.sigmaS) * glm::exp(-sigmaT * (s + r)) * glm::dvec3(light.intensity) * phase / (r * r);
   };
   const auto perMetre = [&](double s) {
     const glm::dvec3 fromLight = eyeW + dir * s - light.positionW;
-    const bool inCone = light.coneCos <= -1.0 ||
-                        glm::dot(fromLight, light.coneAxisW) >= light.coneCos * glm::length(fromLight);
+    const bool inCone =
+        light.coneCos <= -1.0 || glm::dot(fromLight, light.coneAxisW) >= light.coneCos * glm::length(fromLight);
     return inCone ? ofPointLight(s) : glm::dvec3(0.0);
   };
   const int leastDepth = light.coneCos > -1.0 ? 11 : 6;  // a cone may let through a stretch of centimetres

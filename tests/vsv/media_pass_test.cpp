@@ -44,8 +44,8 @@ double worstRelative(const std::vector<glm::vec3>& measured, const std::vector<g
 std::vector<glm::vec3> unshadowedPicture(const MediaWorld& world, double begin = 0.0) {
   std::vector<glm::vec3> picture;
   for (size_t i = 0; i + 1 < world.endsW.size(); ++i)
-    picture.emplace_back(test::unshadowedLight(world.setup.medium, world.setup.light,
-                                               glm::dvec3(world.view.eyeW), world.endsW[i], begin));
+    picture.emplace_back(test::unshadowedLight(world.setup.medium, world.setup.light, glm::dvec3(world.view.eyeW),
+                                               world.endsW[i], begin));
   return picture;
 }
 
@@ -57,10 +57,8 @@ TEST_F(MediaPassTest, WithNothingInTheWayAllWaysGiveTheClosedForm) {
     const std::vector<glm::vec3> expected = unshadowedPicture(world);
     for (const MediaMethod& method : {kRuns, kBits, kPopcount}) {
       const std::vector<glm::vec3> measured = world.scattered(method);
-      EXPECT_LT(worstRelative(measured, expected), 1e-3)
-          << place.name << ", " << integratorName(method.integrator);
-      EXPECT_LT(relativeRmse(measured, expected), 2e-4)
-          << place.name << ", " << integratorName(method.integrator);
+      EXPECT_LT(worstRelative(measured, expected), 1e-3) << place.name << ", " << integratorName(method.integrator);
+      EXPECT_LT(relativeRmse(measured, expected), 2e-4) << place.name << ", " << integratorName(method.integrator);
     }
     for (const bool paraboloid : {false, true})
       EXPECT_LT(relativeRmse(world.scattered({Integrator::March, 512}, paraboloid), expected), place.march512)
@@ -70,17 +68,14 @@ TEST_F(MediaPassTest, WithNothingInTheWayAllWaysGiveTheClosedForm) {
 
 // From the eye to its end, and in the light map's depths.
 TEST_F(MediaPassTest, AFittedVolumeHoldsEveryViewRay) {
-  std::vector<MediaSetup> setups = {test::mediaSetup("grate"), test::mediaSetup("atrium"),
-                                    test::mediaSetup("contact")};
-  for (const Place& place : kPlaces)
-    setups.push_back(test::emptyMediaSetup(place.eyeW, place.targetW, place.lightW));
+  std::vector<MediaSetup> setups = {test::mediaSetup("grate"), test::mediaSetup("atrium"), test::mediaSetup("contact")};
+  for (const Place& place : kPlaces) setups.push_back(test::emptyMediaSetup(place.eyeW, place.targetW, place.lightW));
   for (const MediaSetup& setup : setups) {
     const MediaWorld world(device(), setup);
     const FittedVolume& fitted = world.volume->fitted();
     const glsl::EpipolarGrid& grid = fitted.grid;
     double farthest = 0.0;
-    for (const glm::dvec3& end : world.endsW)
-      farthest = std::max(farthest, glm::length(end - setup.light.positionW));
+    for (const glm::dvec3& end : world.endsW) farthest = std::max(farthest, glm::length(end - setup.light.positionW));
     EXPECT_GE(fitted.columns.zFar, farthest * (1.0 - 1e-6));
     for (size_t i = 0; i + 1 < world.endsW.size(); ++i) {
       const glsl::EpipolarPoint end = glsl::epipolarFromLight(
@@ -116,8 +111,7 @@ TEST_F(MediaPassTest, OtherMediaAndOtherVolumesGiveTheClosedFormToo) {
       setup.fit = c.fit;
       MediaWorld world(device(), setup);
       EXPECT_LT(worstRelative(world.scattered(kRuns), unshadowedPicture(world)), c.worst)
-          << place.name << ", g " << c.medium.g << ", " << volumeSizeName(c.size) << ", "
-          << volumeFitName(c.fit);
+          << place.name << ", g " << c.medium.g << ", " << volumeSizeName(c.size) << ", " << volumeFitName(c.fit);
     }
   }
 }
@@ -125,8 +119,7 @@ TEST_F(MediaPassTest, OtherMediaAndOtherVolumesGiveTheClosedFormToo) {
 // A spot's cone cuts view rays anywhere; runs and bits cut them at the same place.
 TEST_F(MediaPassTest, AConeLightsWhatIsWithin) {
   for (const Place& place : kPlaces) {
-    for (const glm::dvec3& axis :
-         {glm::dvec3(0.3, -0.4, -0.6), glm::dvec3(-1, 0.1, 0.2), glm::dvec3(0, 0.2, 1)}) {
+    for (const glm::dvec3& axis : {glm::dvec3(0.3, -0.4, -0.6), glm::dvec3(-1, 0.1, 0.2), glm::dvec3(0, 0.2, 1)}) {
       MediaSetup setup = test::emptyMediaSetup(place.eyeW, place.targetW, place.lightW);
       setup.light.coneAxisW = glm::normalize(axis);
       setup.light.coneCos = std::cos(0.7);
@@ -175,8 +168,8 @@ TEST_F(MediaPassTest, AHalfSpaceInShadowIsDarkAndTheOtherIsLit) {
   // The border lies within a bin of phi and a column of theta of where it is.
   for (const MediaMethod& method : {kRuns, kBits}) {
     const std::vector<glm::vec3> measured = world.scattered(method);
-    std::printf("%s: worst %.3g, rel_rmse %.3g\n", integratorName(method.integrator),
-                worstRelative(measured, expected), relativeRmse(measured, expected));
+    std::printf("%s: worst %.3g, rel_rmse %.3g\n", integratorName(method.integrator), worstRelative(measured, expected),
+                relativeRmse(measured, expected));
     EXPECT_LT(relativeRmse(measured, expected), 0.01);
     EXPECT_LT(worstRelative(measured, expected), 0.02);
   }
@@ -218,8 +211,7 @@ TEST_F(MediaPassTest, EnergyIsNeverNegativeAndNeverAboveTheUnshadowed) {
       for (size_t i = 0; i < lit[m].size(); ++i) {
         for (int c = 0; c < 3; ++c) {
           ASSERT_GE(shadowed[m][i][c], 0.0f);
-          ASSERT_LE(shadowed[m][i][c], lit[m][i][c] * (1.0f + 1e-5f))
-              << integratorName(methods[m].integrator);
+          ASSERT_LE(shadowed[m][i][c], lit[m][i][c] * (1.0f + 1e-5f)) << integratorName(methods[m].integrator);
         }
         darker += shadowed[m][i].x < 0.95f * lit[m][i].x ? 1 : 0;
       }
@@ -239,8 +231,7 @@ TEST_F(MediaPassTest, AMarchThroughTheMapComesNearTheBits) {
   for (const bool paraboloid : {false, true}) {
     const double coarse = relativeRmse(world.scattered({Integrator::March, 32}, paraboloid), runs);
     const double fine = relativeRmse(world.scattered({Integrator::March, 512}, paraboloid), runs);
-    std::printf("%s: 32 steps %.3g, 512 steps %.3g of the runs\n", paraboloid ? "paraboloid" : "cube", coarse,
-                fine);
+    std::printf("%s: 32 steps %.3g, 512 steps %.3g of the runs\n", paraboloid ? "paraboloid" : "cube", coarse, fine);
     EXPECT_LT(fine, 0.5 * coarse);
     EXPECT_LT(fine, 0.05);
   }
@@ -291,12 +282,11 @@ TEST_F(MediaPassTest, SurfacesAreAttenuatedAlongBothLegs) {
   double worst = 0.0;
   for (size_t i = 0; i < clear.size(); ++i) {
     const glm::dvec3 at = world.receivers.samples[i].positionW;
-    const double path =
-        glm::length(at - glm::dvec3(world.view.eyeW)) + glm::length(at - world.setup.light.positionW);
+    const double path = glm::length(at - glm::dvec3(world.view.eyeW)) + glm::length(at - world.setup.light.positionW);
     for (int c = 0; c < 3; ++c) {
       const double expected =
-          clear[i][c] * std::exp(-path * (world.setup.medium.sigmaS[c] +
-                                          static_cast<double>(world.setup.medium.sigmaA[c])));
+          clear[i][c] *
+          std::exp(-path * (world.setup.medium.sigmaS[c] + static_cast<double>(world.setup.medium.sigmaA[c])));
       worst = std::max(worst, expected > 0.0 ? std::abs(surfaces[i][c] / expected - 1.0) : 0.0);
       ASSERT_EQ(both[i][c], surfaces[i][c] + scattered[i][c]);
     }

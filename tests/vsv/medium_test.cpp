@@ -34,17 +34,16 @@ TEST(ScatteringIntegrand, IsTheScatteringOfAMetre) {
   for (int n = 0; n < 20000; ++n) {
     const double D = 0.2 + 8.0 * unit(random), alpha = 0.05 + 3.0 * unit(random);
     const double phi = (std::numbers::pi - alpha) * (0.02 + 0.9 * unit(random));
-    const double s = D * std::sin(phi) / std::sin(phi + alpha),
-                 r = D * std::sin(alpha) / std::sin(phi + alpha);
+    const double s = D * std::sin(phi) / std::sin(phi + alpha), r = D * std::sin(alpha) / std::sin(phi + alpha);
     // In the plane of L, E and the view ray: L at the origin, E at (0, D).
     const glm::dvec2 dir(std::sin(alpha), -std::cos(alpha));
     const glm::dvec2 point = glm::dvec2(0.0, D) + dir * s;
     ASSERT_NEAR(glm::length(point), r, 1e-9 * r);
-    const vec3 metre = scatteredPerMetre(medium, vec3(point.x, point.y, 0), vec3(dir.x, dir.y, 0),
-                                         static_cast<float>(s + r));
-    const vec3 inPhi = scatteringIntegrand(medium, static_cast<float>(D), static_cast<float>(alpha),
-                                           static_cast<float>(phi)) *
-                       scatteringFactor(medium, static_cast<float>(D), static_cast<float>(std::sin(alpha)));
+    const vec3 metre =
+        scatteredPerMetre(medium, vec3(point.x, point.y, 0), vec3(dir.x, dir.y, 0), static_cast<float>(s + r));
+    const vec3 inPhi =
+        scatteringIntegrand(medium, static_cast<float>(D), static_cast<float>(alpha), static_cast<float>(phi)) *
+        scatteringFactor(medium, static_cast<float>(D), static_cast<float>(std::sin(alpha)));
     const double metresInPhi = r * r / (D * std::sin(alpha));
     // Rounding of phi + alpha where the angle at the point, pi - phi - alpha, is small.
     const double tolerance = 1e-5 + 2e-6 * (s + r) / (std::numbers::pi - phi - alpha);
@@ -84,10 +83,8 @@ TEST(Cone, CutsViewRaysWhereTheirPointsEnterAndLeaveIt) {
 }
 
 TEST(DensityBox, RaysAreCutWhereTheyEnterAndLeave) {
-  DensityPlace place{.centerW = vec3(1, 2, 3),
-                     .centerI = vec3(10, 20, 30),
-                     .lowerI = vec3(5, 15, 28),
-                     .upperI = vec3(15, 25, 32)};
+  DensityPlace place{
+      .centerW = vec3(1, 2, 3), .centerI = vec3(10, 20, 30), .lowerI = vec3(5, 15, 28), .upperI = vec3(15, 25, 32)};
   place.indexFromWorld = mat3(vec3(0, 2, 0), vec3(-2, 0, 0), vec3(0, 0, 4));  // turned about z, and scaled
   std::mt19937 random(6);
   std::normal_distribution<float> normal;
@@ -128,8 +125,8 @@ TEST_F(MediumOnTheGpu, IsThatOfTheCpu) {
     query.alpha = 3.1f * unit(random);
     query.phi = (kPi - query.alpha) * 0.9f * unit(random);
   }
-  const auto answers = gpu::runKernel<MediumQuery, MediumAnswer>(
-      device(), GNOMON_TEST_SHADER("evaluate_medium.comp.glsl"), queries);
+  const auto answers =
+      gpu::runKernel<MediumQuery, MediumAnswer>(device(), GNOMON_TEST_SHADER("evaluate_medium.comp.glsl"), queries);
   for (size_t n = 0; n < queries.size(); ++n) {
     const MediumAnswer cpu = mediumAnswer(queries[n]);
     const MediumAnswer& gpu = answers[n];

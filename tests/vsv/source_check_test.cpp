@@ -1,6 +1,6 @@
 // A volume that the GPU built is the one that its own source implies, and a defect at any of its stages
 // shows.
-#include "vsv/source_check.h"
+#include "vsv/check/source_check.h"
 #include "vsv_fixture.h"
 
 namespace gnomon {
@@ -27,8 +27,7 @@ TEST_F(SourceCheckTest, TheBitsAreWhatTheSourceImplies) {
         const VolumeWorld world = buildVolume(device(), setup(scene, source, fit));
         const DenseVolume measured = denseOf(downloadBits(device(), *world.volume));
         const SourceCheck check = checkSource(device(), *world.volume, measured);
-        const std::string what =
-            std::string(scene) + " " + volumeSourceName(source) + " " + volumeFitName(fit);
+        const std::string what = std::string(scene) + " " + volumeSourceName(source) + " " + volumeFitName(fit);
         EXPECT_EQ(check.sameMap.voxels, 256u * 256u * 256u);
         EXPECT_EQ(check.sameMap.mismatches, 0u) << what;
         EXPECT_EQ(check.sameOccluders.mismatches, 0u) << what;
@@ -62,8 +61,7 @@ TEST_F(SourceCheckTest, TheLayoutIsReadAsVolumeBitsReadsIt) {
 
 // On the GPU's own data: a bit, one voxel everywhere, a row of the scan.
 TEST_F(SourceCheckTest, DefectsOfTheBitsShow) {
-  const VolumeWorld world =
-      buildVolume(device(), setup("contact", VolumeSource::Resample, VolumeFit::Frustum));
+  const VolumeWorld world = buildVolume(device(), setup("contact", VolumeSource::Resample, VolumeFit::Frustum));
   const DenseVolume measured = denseOf(downloadBits(device(), *world.volume));
   DenseVolume flipped = measured;
   flipped.flip(100, 99, 98);
@@ -102,8 +100,8 @@ TEST_F(SourceCheckTest, ADirectVolumeIsTheExactOneUpToRoundingAndSilhouettes) {
     const FittedVolume& fitted = world.volume->fitted();
     const ExactVolume exact = traceColumns(*world.tracer, fitted.columns.frame, fitted.grid);
     const ColumnBoundaries measured = boundariesOf(denseOf(downloadBits(device(), *world.volume))).boundaries;
-    const BoundaryErrors errors = compareBoundaries(*world.tracer, fitted.columns.frame, exact, measured,
-                                                    columnSource(*world.volume), 1e-5);
+    const BoundaryErrors errors =
+        compareBoundaries(*world.tracer, fitted.columns.frame, exact, measured, columnSource(*world.volume), 1e-5);
     EXPECT_GT(errors.histogram[0], errors.columns * 99 / 100) << volumeFitName(fit);
     uint64_t unexplained = 0;
     const BoundaryHistogram& resolution = errors.byCause[static_cast<size_t>(BoundaryCause::Resolution)];
@@ -120,8 +118,8 @@ TEST_F(SourceCheckTest, AFullVolumeLooksBeyondWhatTheCameraSees) {
   const FittedVolume& fitted = world.volume->fitted();
   const ExactVolume exact = traceColumns(*world.tracer, fitted.columns.frame, fitted.grid);
   const ColumnBoundaries measured = boundariesOf(denseOf(downloadBits(device(), *world.volume))).boundaries;
-  const BoundaryErrors errors = compareBoundaries(*world.tracer, fitted.columns.frame, exact, measured,
-                                                  columnSource(*world.volume), 1e-5);
+  const BoundaryErrors errors =
+      compareBoundaries(*world.tracer, fitted.columns.frame, exact, measured, columnSource(*world.volume), 1e-5);
   uint64_t outside = 0;
   for (const uint64_t count : errors.byCause[static_cast<size_t>(BoundaryCause::Outside)]) outside += count;
   EXPECT_LT(outside, errors.columns / 1000);

@@ -1,5 +1,5 @@
 // A .vdb file, opened by OpenVDB itself: voxels, transforms, metadata; and whole or absent.
-#include "vsv/vdb_file.h"
+#include "vsv/check/vdb_file.h"
 #include "base/error.h"
 #include "tests/base/temporary_folder.h"
 #include "volumes_by_hand.h"
@@ -44,8 +44,7 @@ class VdbFileTest : public ::testing::Test {
 
 TEST_F(VdbFileTest, TheEpipolarMaskComesBackVoxelForVoxel) {
   write(path_);
-  const auto mask =
-      openvdb::gridPtrCast<openvdb::MaskGrid>(openvdb::findGridByName(read(path_), "shadow_epipolar"));
+  const auto mask = openvdb::gridPtrCast<openvdb::MaskGrid>(openvdb::findGridByName(read(path_), "shadow_epipolar"));
   ASSERT_TRUE(mask);
   EXPECT_EQ(mask->activeVoxelCount(), occludedCount(volume_));
   uint64_t wrong = 0;
@@ -64,8 +63,7 @@ TEST_F(VdbFileTest, TheEpipolarMaskComesBackVoxelForVoxel) {
 // Each point of the density against the bits, by formulas written out here and not by those of the writer.
 TEST_F(VdbFileTest, TheDensityIsOneWhereAPointOfTheWorldLiesInShadow) {
   const VdbSummary summary = write(path_);
-  const auto density =
-      openvdb::gridPtrCast<openvdb::FloatGrid>(openvdb::findGridByName(read(path_), "density"));
+  const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(openvdb::findGridByName(read(path_), "density"));
   ASSERT_TRUE(density);
   EXPECT_EQ(density->getGridClass(), openvdb::GRID_FOG_VOLUME);
   EXPECT_EQ(density->voxelSize(), openvdb::Vec3d(0.25));
@@ -82,10 +80,9 @@ TEST_F(VdbFileTest, TheDensityIsOneWhereAPointOfTheWorldLiesInShadow) {
         const glm::dvec3 posL(glm::dot(p, glm::dvec3(frame_.rightW)), glm::dot(p, glm::dvec3(frame_.upW)),
                               glm::dot(p, glm::dvec3(frame_.backW)));
         const double aside = std::hypot(posL.x, posL.y);
-        const double steps[3] = {
-            (std::atan2(aside, grid_.eyeDistance - posL.z) - grid_.alphaLower) / grid_.alphaStep,
-            (std::atan2(posL.x, posL.y) - grid_.thetaLower) / grid_.thetaStep,
-            (std::atan2(aside, posL.z) - grid_.phiLower) / grid_.phiStep};
+        const double steps[3] = {(std::atan2(aside, grid_.eyeDistance - posL.z) - grid_.alphaLower) / grid_.alphaStep,
+                                 (std::atan2(posL.x, posL.y) - grid_.thetaLower) / grid_.thetaStep,
+                                 (std::atan2(aside, posL.z) - grid_.phiLower) / grid_.phiStep};
         bool nearSide = false;  // of a voxel: rounding decides
         for (const double s : steps) nearSide = nearSide || std::abs(s - std::round(s)) < 1e-3;
         if (nearSide) continue;

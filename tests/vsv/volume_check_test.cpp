@@ -1,5 +1,5 @@
 // The check itself: silent about a right volume, and red, with the right count, about every defect made here.
-#include "vsv/volume_check.h"
+#include "vsv/check/volume_check.h"
 #include "volumes_by_hand.h"
 
 #include <gtest/gtest.h>
@@ -77,8 +77,8 @@ TEST_F(VolumeCheckTest, AScanThatSkipsARowIsFound) {
     const DenseVolume volume = scanned(row);
     // The row keeps its own first bits, and those behind it lose what begins there.
     const uint64_t notCarriedIn = countColumns([&](int first) { return first < row; });
-    const uint64_t notCarriedOn = countColumns([&](int first) { return first == row; }) *
-                                  static_cast<uint64_t>(grid_.alphaCount - 1 - row);
+    const uint64_t notCarriedOn =
+        countColumns([&](int first) { return first == row; }) * static_cast<uint64_t>(grid_.alphaCount - 1 - row);
     EXPECT_EQ(mismatches(volume), notCarriedIn + notCarriedOn) << row;
     EXPECT_EQ(boundariesOf(volume).litBehind, notCarriedIn + notCarriedOn) << row;
     EXPECT_GT(notCarriedIn + notCarriedOn, 0u);

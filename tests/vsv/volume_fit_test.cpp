@@ -35,9 +35,8 @@ Fitted fitFor(const glm::dvec3& lightW, const Camera& camera, VolumeFit fit, std
   const glm::dvec3 eye(f.view.eyeW), right(f.view.rightW), up(f.view.upW), forward(f.view.forwardW);
   for (int y = 0; y <= 30; ++y)
     for (int x = 0; x <= 40; ++x)
-      f.receivers.push_back(eye +
-                            distances(random) * (forward + right * ((x / 20.0 - 1.0) * f.view.tanHalfX) +
-                                                 up * ((y / 15.0 - 1.0) * f.view.tanHalfY)));
+      f.receivers.push_back(eye + distances(random) * (forward + right * ((x / 20.0 - 1.0) * f.view.tanHalfX) +
+                                                       up * ((y / 15.0 - 1.0) * f.view.tanHalfY)));
   f.volume = fitVolume({.scene = f.scene, .light = f.light, .receiversW = f.receivers, .camera = f.view},
                        {.alpha = 128, .theta = 96, .phi = 128}, fit);
   return f;
@@ -63,9 +62,8 @@ TEST(VolumeFitTest, CoversEverythingSeenWhereverTheLightIs) {
   std::uniform_real_distribution<float> place(-8.0f, 8.0f);
   int round = 0;
   for (int i = 0; i < 400; ++i) {
-    const Camera camera =
-        lookAt("any", {place(random), place(random), place(random)},
-               {place(random), place(random), place(random)}, 0.5f + 0.002f * static_cast<float>(i));
+    const Camera camera = lookAt("any", {place(random), place(random), place(random)},
+                                 {place(random), place(random), place(random)}, 0.5f + 0.002f * static_cast<float>(i));
     const glm::dvec3 lightW(place(random), place(random), place(random));
     const Fitted f = fitFor(lightW, camera, i % 8 == 0 ? VolumeFit::Full : VolumeFit::Frustum, random);
     expectCovered(f);
@@ -91,8 +89,7 @@ TEST(VolumeFitTest, TheEpipoleOnScreenOffScreenAndBehind) {
   EXPECT_TRUE(glsl::thetaGoesRound(behind.volume.grid));
   EXPECT_GT(behind.volume.grid.alphaLower, 2.0f);
   EXPECT_NEAR(glsl::alphaUpper(behind.volume.grid), kPi, 0.02);
-  const Fitted above =
-      fitFor({0.0, 4.0, 0.0}, camera, VolumeFit::Frustum, random);  // the axis is the camera's up
+  const Fitted above = fitFor({0.0, 4.0, 0.0}, camera, VolumeFit::Frustum, random);  // the axis is the camera's up
   EXPECT_FALSE(glsl::thetaGoesRound(above.volume.grid));
   for (const Fitted* f : {&onScreen, &offScreen, &behind, &above}) expectCovered(*f);
 }
@@ -104,8 +101,7 @@ TEST(VolumeFitTest, TheRangesAreTight) {
   for (int i = 0; i < 100; ++i) {
     const Camera camera = lookAt("any", {place(random), place(random), place(random)},
                                  {place(random), place(random), place(random)}, 0.9f);
-    const Fitted f =
-        fitFor({place(random), place(random), place(random)}, camera, VolumeFit::Frustum, random);
+    const Fitted f = fitFor({place(random), place(random), place(random)}, camera, VolumeFit::Frustum, random);
     const glsl::EpipolarGrid& grid = f.volume.grid;
     float alphaLeast = 10.0f, alphaMost = 0.0f, phiMost = 0.0f, stepsLeast = 1e9f, stepsMost = 0.0f;
     for (const glm::dvec3& receiver : f.receivers) {
@@ -144,8 +140,8 @@ TEST(VolumeFitTest, ALightAtTheEyeIsRefusedByName) {
 
 TEST(VolumeFitTest, SizesOnTheCommandLine) {
   EXPECT_EQ(parseVolumeSize("512x1024x256"), (VolumeSize{.alpha = 512, .theta = 1024, .phi = 256}));
-  for (const char* wrong : {"", "512", "512x512", "512x512x100", "0x512x128", "512x512x128x", "512 x512x128",
-                            "-5x5x128", "99999x2x128"})
+  for (const char* wrong :
+       {"", "512", "512x512", "512x512x100", "0x512x128", "512x512x128x", "512 x512x128", "-5x5x128", "99999x2x128"})
     EXPECT_THROW(parseVolumeSize(wrong), UsageError) << wrong;
 }
 

@@ -1,6 +1,6 @@
 // The sparse grid holds the dense volume's very voxels, whatever their pattern, in less memory where it is
 // smooth.
-#include "vsv/volume_grid.h"
+#include "vsv/check/volume_grid.h"
 #include "volumes_by_hand.h"
 
 #include <gtest/gtest.h>

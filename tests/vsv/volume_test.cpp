@@ -29,8 +29,7 @@ std::vector<glm::uvec4> serialScan(const glsl::EpipolarGrid& grid, const std::ve
     for (int k = 0; k < grid.thetaCount; ++k) {
       bool occluded = false;
       for (int i = 0; i < grid.alphaCount; ++i) {
-        occluded =
-            occluded || glsl::alphaCenter(grid, i) > occluders[static_cast<size_t>(j) * grid.thetaCount + k];
+        occluded = occluded || glsl::alphaCenter(grid, i) > occluders[static_cast<size_t>(j) * grid.thetaCount + k];
         word(i, k, j) |= (occluded ? 1u : 0u) << (j % 32);
       }
     }
@@ -134,8 +133,8 @@ TEST_F(VolumeTest, BitsOfASceneObeyTheRuleAndNeverFallAlongAlpha) {
 TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
   for (const char* scene : {"atrium", "slope", "sheets"}) {
     for (const VolumeFit fit : {VolumeFit::Frustum, VolumeFit::Full}) {
-      const VolumeWorld w = test::buildVolume(
-          device(), {.scene = scene, .size = {.alpha = 64, .theta = 250, .phi = 128}, .fit = fit});
+      const VolumeWorld w =
+          test::buildVolume(device(), {.scene = scene, .size = {.alpha = 64, .theta = 250, .phi = 128}, .fit = fit});
       const auto occluders = gpu::downloadAs<float>(device(), w.volume->occluders());
       const glsl::ShadowMap& map = w.columns.map;
       const glm::dmat3 worldFromLight(glm::dvec3(w.columns.frame.rightW), glm::dvec3(w.columns.frame.upW),
@@ -149,14 +148,12 @@ TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
                                                .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))});
           const float stored = occluders[static_cast<size_t>(y * map.side + x)];
           const float upper = glsl::alphaUpper(map.epipolar);
-          const float exact = hit ? glsl::epipolarFromLight(map.epipolar.eyeDistance,
-                                                            ray.dir * static_cast<float>(hit->distance))
-                                        .alpha
-                                  : upper;
+          const float exact =
+              hit ? glsl::epipolarFromLight(map.epipolar.eyeDistance, ray.dir * static_cast<float>(hit->distance)).alpha
+                  : upper;
           covered += hit ? 1 : 0;
           // A ray turned by 1e-6 meets a surface at a slant s by 1e-6 / s of its distance off.
-          const double slant =
-              hit ? std::abs(glm::dot(hit->normalW, worldFromLight * glm::dvec3(ray.dir))) : 1.0;
+          const double slant = hit ? std::abs(glm::dot(hit->normalW, worldFromLight * glm::dvec3(ray.dir))) : 1.0;
           const double error = std::abs(std::min(stored, upper) - std::min(exact, upper));
           if (error <= 8e-6 * (1.0 + 1.0 / slant)) continue;
           ++off;
@@ -164,8 +161,8 @@ TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
         }
       }
       const auto all = static_cast<size_t>(map.side * map.rows);
-      std::printf("%s, %s: %zu of %zu columns off (at edges), %zu covered, worst %g rad\n", scene,
-                  volumeFitName(fit), off, all, covered, worst);
+      std::printf("%s, %s: %zu of %zu columns off (at edges), %zu covered, worst %g rad\n", scene, volumeFitName(fit),
+                  off, all, covered, worst);
       EXPECT_LT(off, 2 + all / 2000);
       EXPECT_GT(covered, all / 200);  // `slope` is a patch of the whole sphere
     }
@@ -191,15 +188,13 @@ std::vector<Place> places() {
 TEST_F(VolumeTest, OnSlopeAdaptiveHasNoAcneWhereverTheLight) {
   for (const Place& place : places()) {
     for (const VolumeFit fit : {VolumeFit::Frustum, VolumeFit::Full}) {
-      const VolumeWorld w =
-          test::buildVolume(device(), {.scene = "slope", .lightW = place.lightW, .fit = fit});
+      const VolumeWorld w = test::buildVolume(device(), {.scene = "slope", .lightW = place.lightW, .fit = fit});
       size_t acne[2] = {0, 0};
       for (const bool adaptive : {false, true}) {
         const test::VolumeScore score = test::scoreVolume(device(), w, adaptive ? "adaptive" : "none");
         acne[adaptive ? 1 : 0] = score.labels.count(Label::Acne);
         size_t sum = 0;
-        for (int label = 1; label < kLabelCount; ++label)
-          sum += score.labels.counts[static_cast<size_t>(label)];
+        for (int label = 1; label < kLabelCount; ++label) sum += score.labels.counts[static_cast<size_t>(label)];
         EXPECT_EQ(sum, w.receivers.scored);
         EXPECT_EQ(score.labels.count(Label::Uncovered), 0u);
       }
@@ -215,8 +210,7 @@ TEST_F(VolumeTest, OnSlopeAdaptiveHasNoAcneWhereverTheLight) {
 // A cube's texels have rays of their own, so that some acne returns: said here, and bounded.
 TEST_F(VolumeTest, ResampledColumnsBringSomeAcneBack) {
   for (const int cubeSide : {256, 1024}) {
-    const VolumeWorld w =
-        test::buildVolume(device(), {.source = VolumeSource::Resample, .cubeSide = cubeSide});
+    const VolumeWorld w = test::buildVolume(device(), {.source = VolumeSource::Resample, .cubeSide = cubeSide});
     const size_t none = test::scoreVolume(device(), w, "none").labels.count(Label::Acne);
     const size_t adaptive = test::scoreVolume(device(), w, "adaptive").labels.count(Label::Acne);
     std::printf("resampled from a cube of %d: acne none %.2f%%, adaptive %.2f%%\n", cubeSide,

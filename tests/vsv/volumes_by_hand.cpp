@@ -47,8 +47,7 @@ std::vector<float> smoothOccluders(const glsl::EpipolarGrid& grid) {
   std::vector<float> occluders(columnCount(grid));
   for (int phi = 0; phi < grid.phiCount; ++phi)
     for (int theta = 0; theta < grid.thetaCount; ++theta)
-      occluders[columnIndex(grid, theta, phi)] = 1.0f +
-                                                 0.5f * std::sin(static_cast<float>(theta) * grid.thetaStep) +
+      occluders[columnIndex(grid, theta, phi)] = 1.0f + 0.5f * std::sin(static_cast<float>(theta) * grid.thetaStep) +
                                                  0.3f * std::cos(static_cast<float>(phi) * grid.phiStep);
   return occluders;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Small volumes that a test can reason about.
 
-#include "vsv/dense_volume.h"
+#include "vsv/check/dense_volume.h"
 
 #include "shared/light_frame.glsl"
 

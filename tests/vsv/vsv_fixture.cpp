@@ -9,12 +9,10 @@ VolumeWorld buildVolume(const gpu::Device& device, const VolumeSetup& setup) {
   w.scene = openScene(setup.scene);
   w.tracer = std::make_unique<Tracer>(w.scene);
   w.buffers = createSceneBuffers(device, w.scene);
-  const auto positional = std::ranges::find_if(
-      w.scene.lights, [](const Light& light) { return light.type != LightType::Directional; });
-  w.light = {.type = LightType::Point,
-             .positionW = setup.lightW ? *setup.lightW : glm::dvec3(positional->positionW)};
-  w.view = cameraView(setup.camera ? *setup.camera : w.scene.cameras.front(), setup.pictureSide,
-                      setup.pictureSide);
+  const auto positional =
+      std::ranges::find_if(w.scene.lights, [](const Light& light) { return light.type != LightType::Directional; });
+  w.light = {.type = LightType::Point, .positionW = setup.lightW ? *setup.lightW : glm::dvec3(positional->positionW)};
+  w.view = cameraView(setup.camera ? *setup.camera : w.scene.cameras.front(), setup.pictureSide, setup.pictureSide);
   w.gbuffer = std::make_unique<GBuffer>(device, setup.pictureSide, setup.pictureSide);
   {
     gpu::Commands commands(device, "G-buffer");
@@ -33,8 +31,8 @@ VolumeWorld buildVolume(const gpu::Device& device, const VolumeSetup& setup) {
        .side = setup.cubeSide,
        .camera = w.view,
        .options = {.volumeSize = setup.size, .volumeSource = setup.source, .volumeFit = setup.fit}});
-  w.volume = std::make_unique<ShadowVolume>(
-      device, FittedVolume{.grid = w.columns.map.epipolar, .columns = w.columns}, w.columns.lookedUpIn);
+  w.volume = std::make_unique<ShadowVolume>(device, FittedVolume{.grid = w.columns.map.epipolar, .columns = w.columns},
+                                            w.columns.lookedUpIn);
   const MapRenderer maps(device);
   const VolumeRenderer renderer(device);
   gpu::Commands commands(device, "shadow volume");

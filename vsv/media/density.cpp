@@ -43,9 +43,8 @@ openvdb::GridBase::Ptr readNamed(openvdb::io::File& file, const Named& named) {
     if (it == file.endName()) throw fileError(named.path, "there is no grid in it", "take another file");
     name = it.gridName();
     if (++it != file.endName())
-      throw fileError(
-          named.path, "there are several grids in it",
-          fmt::format("add one to the name, as in {}:{}; there are {}", named.path, name, namesIn(file)));
+      throw fileError(named.path, "there are several grids in it",
+                      fmt::format("add one to the name, as in {}:{}; there are {}", named.path, name, namesIn(file)));
   } else if (!file.hasGrid(name)) {
     throw fileError(named.path, fmt::format("there is no grid '{}' in it", name),
                     fmt::format("choose of {}", namesIn(file)));
@@ -56,8 +55,7 @@ openvdb::GridBase::Ptr readNamed(openvdb::io::File& file, const Named& named) {
 openvdb::GridBase::Ptr readGrid(const Named& named) {
   openvdb::initialize();
   std::error_code failure;
-  if (!fs::is_regular_file(named.path, failure))
-    throw fileError(named.path, "there is no such file", "check the name");
+  if (!fs::is_regular_file(named.path, failure)) throw fileError(named.path, "there is no such file", "check the name");
   try {
     openvdb::io::File file(named.path);
     file.open(/*delayLoad=*/false);
@@ -123,8 +121,7 @@ DensityGrid::DensityGrid(const std::string& fileAndGrid, const DensityPlacement&
     unit[axis] = 1.0;
     impl_->worldFromIndex[axis] = placement.scale * (fileFromIndex(unit) - origin);
   }
-  if (const double det = glm::determinant(impl_->worldFromIndex);
-      !(std::abs(det) > 0.0) || !std::isfinite(det))
+  if (const double det = glm::determinant(impl_->worldFromIndex); !(std::abs(det) > 0.0) || !std::isfinite(det))
     throw fileError(named.path, fmt::format("its grid '{}' has voxels without volume", gridName_),
                     "mend its transform");
   impl_->indexFromWorld = glm::inverse(impl_->worldFromIndex);
@@ -143,8 +140,7 @@ DensityGrid::~DensityGrid() = default;
 
 double DensityGrid::at(const glm::dvec3& posW) const {
   const glm::dvec3 posI = impl_->centerI + impl_->indexFromWorld * (posW - impl_->centerW);
-  if (glm::any(glm::lessThan(posI, impl_->lowerI)) || glm::any(glm::greaterThan(posI, impl_->upperI)))
-    return 0.0;
+  if (glm::any(glm::lessThan(posI, impl_->lowerI)) || glm::any(glm::greaterThan(posI, impl_->upperI))) return 0.0;
   const glm::dvec3 lower = glm::floor(posI), upperWeight = posI - lower;
   const auto accessor = impl_->grid->getAccessor();  // keeps the last leaf
   const nanovdb::Coord cell(static_cast<int>(lower.x), static_cast<int>(lower.y), static_cast<int>(lower.z));
@@ -152,8 +148,7 @@ double DensityGrid::at(const glm::dvec3& posW) const {
   for (int corner = 0; corner < 8; ++corner) {
     const nanovdb::Coord at(corner & 1, corner >> 1 & 1, corner >> 2);
     double weight = 1.0;
-    for (int axis = 0; axis < 3; ++axis)
-      weight *= at[axis] == 1 ? upperWeight[axis] : 1.0 - upperWeight[axis];
+    for (int axis = 0; axis < 3; ++axis) weight *= at[axis] == 1 ? upperWeight[axis] : 1.0 - upperWeight[axis];
     sum += weight * static_cast<double>(accessor.getValue(cell + at));
   }
   return std::max(sum, 0.0);
@@ -185,11 +180,11 @@ std::span<const std::byte> checkedBytes(const gpu::Device& device, const Density
   const std::span<const std::byte> bytes = grid.nanoVdb();
   const uint64_t most = std::min(device.info().maxStorageBufferBytes, device.info().maxAllocationBytes);
   if (bytes.size() > most)
-    throw WorldError(fmt::format(
-        "--density: grid '{}' takes {} MiB, more than the device's largest buffer, {} MiB; resample it to "
-        "voxels {:.1f} times as large",
-        grid.gridName(), bytes.size() >> 20, most >> 20,
-        std::cbrt(static_cast<double>(bytes.size()) / static_cast<double>(most)) + 0.05));
+    throw WorldError(
+        fmt::format("--density: grid '{}' takes {} MiB, more than the device's largest buffer, {} MiB; resample it to "
+                    "voxels {:.1f} times as large",
+                    grid.gridName(), bytes.size() >> 20, most >> 20,
+                    std::cbrt(static_cast<double>(bytes.size()) / static_cast<double>(most)) + 0.05));
   return bytes;
 }
 
@@ -221,8 +216,7 @@ glsl::LightReach lightReach(const Bounds& boundsW, double voxelMetres, const glm
   const bool cone = least > 0.0;
   const double cell = (farthest - nearest) / (glsl::kLightDepthRadii - 1);
   return {.axisW = glm::vec3(axis),
-          .halfWidth =
-              static_cast<float>(kMargin * (cone ? std::sqrt(1.0 - least * least) / (1.0 + least) : 1.0)),
+          .halfWidth = static_cast<float>(kMargin * (cone ? std::sqrt(1.0 - least * least) / (1.0 + least) : 1.0)),
           .layers = cone ? 1 : 2,
           .near_ = static_cast<float>(nearest),
           .far_ = static_cast<float>(farthest),

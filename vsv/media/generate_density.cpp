@@ -116,8 +116,7 @@ DensityAt densityNamed(const std::string& name, uint32_t seed) {
   throw UsageError(fmt::format("--density {}: choose of {}", name, fmt::join(names, ", ")));
 }
 
-std::unique_ptr<Leaf> leafOf(const openvdb::Coord& origin,
-                             const std::function<double(const openvdb::Coord&)>& at) {
+std::unique_ptr<Leaf> leafOf(const openvdb::Coord& origin, const std::function<double(const openvdb::Coord&)>& at) {
   std::unique_ptr<Leaf> leaf;
   for (openvdb::Index n = 0; n < Leaf::SIZE; ++n) {
     const double value = at(origin + Leaf::offsetToLocalCoord(n));
@@ -144,8 +143,7 @@ DensitySummary writeGeneratedDensity(const std::string& name, const Bounds& boun
   const DensityAt at = densityNamed(name, seed);
   const glm::dvec3 lower(boundsW.lower), diagonal = glm::dvec3(boundsW.upper) - lower;
   const double longest = std::max({diagonal.x, diagonal.y, diagonal.z});
-  if (!(longest > 0.0))
-    throw WorldError("--density: the scene has no extent to fill; take another with --for");
+  if (!(longest > 0.0)) throw WorldError("--density: the scene has no extent to fill; take another with --for");
   const double voxel = longest / kVoxelsAlong;
   // A flat scene is filled as high as an eighth of its length.
   const glm::dvec3 extent = glm::max(diagonal, glm::dvec3(longest / 8.0));

@@ -62,12 +62,11 @@ const char* integratorName(Integrator integrator) {
 
 MediaLightSource mediaLight(const Light& light) {
   if (light.type == LightType::Directional)
-    throw WorldError(fmt::format(
-        "the light '{}' is directional, and shafts are made of point and spot lights; choose another with "
-        "--light",
-        light.name));
-  MediaLightSource source{.positionW = glm::dvec3(light.positionW),
-                          .intensity = light.color * light.intensity};
+    throw WorldError(
+        fmt::format("the light '{}' is directional, and shafts are made of point and spot lights; choose another with "
+                    "--light",
+                    light.name));
+  MediaLightSource source{.positionW = glm::dvec3(light.positionW), .intensity = light.color * light.intensity};
   if (light.type == LightType::Spot) {
     source.coneAxisW = glm::normalize(glm::dvec3(light.directionW));
     source.coneCos = std::max(std::cos(static_cast<double>(light.outerConeRad)), 0.0);
@@ -75,8 +74,7 @@ MediaLightSource mediaLight(const Light& light) {
   return source;
 }
 
-std::vector<glm::dvec3> mediaReceiversW(const glsl::CameraView& camera, const Receivers& receivers,
-                                        double reach) {
+std::vector<glm::dvec3> mediaReceiversW(const glsl::CameraView& camera, const Receivers& receivers, double reach) {
   const glm::dvec3 eyeW(camera.eyeW);
   std::vector<glm::dvec3> ends(receivers.states.size() + 1, eyeW);
   for (size_t i = 0; i < receivers.states.size(); ++i) {
@@ -99,9 +97,9 @@ MediaPass::MediaPass(const gpu::Device& device, int width, int height)
     : device_(device),
       programs_(device),
       groupCount_(groups(width, glsl::kMediaGroupSide), groups(height, glsl::kMediaGroupSide), 1),
-      uniforms_(device, {.name = "media uniforms",
-                         .size = sizeof(glsl::MediaUniforms),
-                         .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
+      uniforms_(
+          device,
+          {.name = "media uniforms", .size = sizeof(glsl::MediaUniforms), .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
       running_(device, {.name = "running integral",
                         .format = VK_FORMAT_R32G32B32A32_SFLOAT,
                         .width = glsl::kTableColumns,
@@ -111,8 +109,7 @@ MediaPass::MediaPass(const gpu::Device& device, int width, int height)
       surfaces_(device, {.name = "surfaces in the medium", .size = pictureBytes(width, height)}),
       radiance_(device, {.name = "radiance with the medium", .size = pictureBytes(width, height)}) {}
 
-void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& medium,
-                          const DensityBuffers* density) {
+void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& medium, const DensityBuffers* density) {
   density_ = density;
   if (density != nullptr && lightDepth_.size() == 0) {
     constexpr int kFloats = 2 * glsl::kLightDepthRadii * glsl::kLightDepthSide * glsl::kLightDepthSide;
@@ -122,13 +119,11 @@ void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& me
   gpu::upload(device_, uniforms_, gpu::asPush(glsl::MediaUniforms{.camera = camera, .medium = medium}));
 }
 
-void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visibility,
-                            const MediaLightSource& light) {
+void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visibility, const MediaLightSource& light) {
   commands.beginStage("media table");
   if (density_ != nullptr) {
-    const glsl::DensityPush push{
-        .light = pushFor(light, {}, false),
-        .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
+    const glsl::DensityPush push{.light = pushFor(light, {}, false),
+                                 .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
     const uint32_t side = groups(glsl::kLightDepthSide, glsl::kMediaGroupSide);
     commands.dispatch(programs_.get("vsv/tabulate_light_depth.comp.glsl"),
                       {side, side, static_cast<uint32_t>(push.reach.layers)}, gpu::asPush(push),
@@ -146,8 +141,8 @@ void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visi
 }
 
 void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                       const MediaVisibility& visibility, const MediaLightSource& light,
-                       const MediaMethod& method, bool add) {
+                       const MediaVisibility& visibility, const MediaLightSource& light, const MediaMethod& method,
+                       bool add) {
   const bool marchesMap = method.integrator == Integrator::March;
   GNOMON_CHECK(marchesMap ? visibility.map != nullptr : visibility.volume != nullptr);
   GNOMON_CHECK(method.steps > 0 || (!marchesMap && density_ == nullptr));
@@ -166,9 +161,8 @@ void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const
     recordDensity(commands, visibility, light, push, instanced, std::move(bindings));
   } else if (marchesMap) {
     bindings.emplace_back(glsl::kBindMapDepth, visibility.map->depth());
-    commands.dispatch(
-        programs_.get("vsv/march_map.comp.glsl", {{.id = 0, .value = visibility.map->kind()}, instanced}),
-        groupCount_, gpu::asPush(push), bindings);
+    commands.dispatch(programs_.get("vsv/march_map.comp.glsl", {{.id = 0, .value = visibility.map->kind()}, instanced}),
+                      groupCount_, gpu::asPush(push), bindings);
   } else {
     bindings.emplace_back(glsl::kBindBits, visibility.volume->bits());
     bindings.emplace_back(glsl::kBindRunning, running_);
@@ -180,27 +174,26 @@ void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const
 }
 
 // One of the two sources of visibility is bound and not read.
-void MediaPass::recordDensity(gpu::Commands& commands, const MediaVisibility& visibility,
-                              const MediaLightSource& light, const glsl::MediaPush& lightPush,
-                              const gpu::Specialization& instanced, std::vector<gpu::Binding> bindings) {
+void MediaPass::recordDensity(gpu::Commands& commands, const MediaVisibility& visibility, const MediaLightSource& light,
+                              const glsl::MediaPush& lightPush, const gpu::Specialization& instanced,
+                              std::vector<gpu::Binding> bindings) {
   const bool ofMap = visibility.map != nullptr;
-  bindings.emplace_back(glsl::kBindMapDepth,
-                        ofMap ? visibility.map->depth() : visibility.volume->source().depth());
+  bindings.emplace_back(glsl::kBindMapDepth, ofMap ? visibility.map->depth() : visibility.volume->source().depth());
   bindings.emplace_back(glsl::kBindBits, ofMap ? lightDepth_ : visibility.volume->bits());
   bindings.emplace_back(glsl::kBindDensity, density_->words);
   bindings.emplace_back(glsl::kBindDensityPlace, density_->place);
   bindings.emplace_back(glsl::kBindLightDepth, lightDepth_);
   bindings.emplace_back(glsl::kBindEyeDepth, eyeDepth_);
-  const glsl::DensityPush push{
-      .light = lightPush, .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
+  const glsl::DensityPush push{.light = lightPush,
+                               .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
   const int kind = ofMap ? visibility.map->kind() : glsl::kMapEpipolar;
-  commands.dispatch(programs_.get("vsv/march_density.comp.glsl", {{.id = 0, .value = kind}, instanced}),
-                    groupCount_, gpu::asPush(push), bindings);
+  commands.dispatch(programs_.get("vsv/march_density.comp.glsl", {{.id = 0, .value = kind}, instanced}), groupCount_,
+                    gpu::asPush(push), bindings);
 }
 
 void MediaPass::recordSurfaces(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                               const MediaLightSource& light, const gpu::Buffer& shade,
-                               const gpu::Buffer& visibility, bool add) {
+                               const MediaLightSource& light, const gpu::Buffer& shade, const gpu::Buffer& visibility,
+                               bool add) {
   glsl::DensityPush push{.light = pushFor(light, {}, add), .reach = {}};
   std::vector<gpu::Binding> bindings = {{glsl::kBindPositions, scene.positions},
                                         {glsl::kBindTriangles, scene.triangles},
@@ -220,9 +213,9 @@ void MediaPass::recordSurfaces(gpu::Commands& commands, const SceneBuffers& scen
   bindings.emplace_back(glsl::kBindEyeDepth, density_ != nullptr ? eyeDepth_ : visibility);
   if (density_ != nullptr) push.reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW);
   commands.beginStage("media surfaces");
-  commands.dispatch(programs_.get("vsv/shade_surface_in_medium.comp.glsl",
-                                  {{.id = 0, .value = density_ != nullptr ? 1 : 0}}),
-                    groupCount_, gpu::asPush(push), bindings);
+  commands.dispatch(
+      programs_.get("vsv/shade_surface_in_medium.comp.glsl", {{.id = 0, .value = density_ != nullptr ? 1 : 0}}),
+      groupCount_, gpu::asPush(push), bindings);
   commands.endStage();
 }
 

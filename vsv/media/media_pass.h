@@ -25,8 +25,7 @@ const char* integratorName(Integrator integrator);
 
 struct MediaMethod {
   Integrator integrator = Integrator::Runs;
-  int steps =
-      0;  // of March; and of every integrator in a heterogeneous medium, where the view ray is marched
+  int steps = 0;  // of March; and of every integrator in a heterogeneous medium, where the view ray is marched
 };
 
 struct MediaLightSource {
@@ -48,8 +47,7 @@ struct MediaVisibility {
 
 // Where the view rays of all pixels end, and the eye: what a volume or map for a medium is fitted to
 // (FitInput::receiversW). `reach`: Medium::reach.
-std::vector<glm::dvec3> mediaReceiversW(const glsl::CameraView& camera, const Receivers& receivers,
-                                        double reach);
+std::vector<glm::dvec3> mediaReceiversW(const glsl::CameraView& camera, const Receivers& receivers, double reach);
 
 // Metres from the eye to the farthest corner of the scene's bounds: a reach that ends every view ray.
 float defaultReach(const Scene& scene, const glm::vec3& eyeW);
@@ -59,8 +57,7 @@ class MediaPass {
   MediaPass(const gpu::Device& device, int width, int height);
 
   // Of the frames recorded from now on. `density`: what makes the medium heterogeneous; it outlives them.
-  void setMedium(const glsl::CameraView& camera, const glsl::Medium& medium,
-                 const DensityBuffers* density = nullptr);
+  void setMedium(const glsl::CameraView& camera, const glsl::Medium& medium, const DensityBuffers* density = nullptr);
 
   // The table that record() reads: once a frame and light, before it, and a barrier between. Homogeneous: the
   // running integral in the frame of the volume, nothing for a map. Heterogeneous: the density between the
@@ -71,15 +68,13 @@ class MediaPass {
   // says whether through bits or a map. `add`: to what other lights scattered. Stage "media integrate".
   // Several lights: recordTable, barrier, record, barrier, recordTable of the next.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-              const MediaVisibility& visibility, const MediaLightSource& light, const MediaMethod& method,
-              bool add);
+              const MediaVisibility& visibility, const MediaLightSource& light, const MediaMethod& method, bool add);
 
   // The surfaces' own light, attenuated from the light and to the eye; in a heterogeneous medium after
   // record() of the same light, whose table and depths to the eye it reads. `shade` and `visibility`: a
   // VisibilityPass's of the same camera, with lightColor the intensity over pi. Stage "media surfaces".
   void recordSurfaces(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                      const MediaLightSource& light, const gpu::Buffer& shade, const gpu::Buffer& visibility,
-                      bool add);
+                      const MediaLightSource& light, const gpu::Buffer& shade, const gpu::Buffer& visibility, bool add);
 
   // Surfaces and scattered light: radiance(). After a barrier behind both.
   void recordSum(gpu::Commands& commands);
@@ -90,9 +85,9 @@ class MediaPass {
   const gpu::Buffer& radiance() const { return radiance_; }
 
  private:
-  void recordDensity(gpu::Commands& commands, const MediaVisibility& visibility,
-                     const MediaLightSource& light, const glsl::MediaPush& push,
-                     const gpu::Specialization& instanced, std::vector<gpu::Binding> bindings);
+  void recordDensity(gpu::Commands& commands, const MediaVisibility& visibility, const MediaLightSource& light,
+                     const glsl::MediaPush& push, const gpu::Specialization& instanced,
+                     std::vector<gpu::Binding> bindings);
 
   const gpu::Device& device_;
   gpu::ComputePrograms programs_;  // compiled at first use

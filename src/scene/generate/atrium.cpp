@@ -51,8 +51,8 @@ void addShell(Scene& scene, const Materials& m) {
   addMesh(scene, groundMesh("floor", m.floor, {-x, -z}, {x, z}));
   // The outline of a rectangle with a rectangular hole is one polygon with a slit; four boxes are simpler,
   // and a solid each, so that they may touch.
-  const auto frame = [&](const char* name, int material, double innerX, double innerZ, double outerX,
-                         double outerZ, double y0, double y1) {
+  const auto frame = [&](const char* name, int material, double innerX, double innerZ, double outerX, double outerZ,
+                         double y0, double y1) {
     const glm::dvec3 boxes[4][2] = {{{-outerX, y0, innerZ}, {outerX, y1, outerZ}},
                                     {{-outerX, y0, -outerZ}, {outerX, y1, -innerZ}},
                                     {{innerX, y0, -innerZ}, {outerX, y1, innerZ}},
@@ -72,10 +72,9 @@ void addShell(Scene& scene, const Materials& m) {
 void addColumn(Scene& scene, int material, const glm::dvec3& foot, double height, int segments) {
   // Plinth and capital turn with the shaft; the top ends 2 cm inside the arches' band.
   const double s = 0.24;
-  const std::vector<glm::dvec2> profile = {
-      {1.6 * s, -0.05},         {1.6 * s, 0.14},         {1.35 * s, 0.22},
-      {1.0 * s, 0.28},          {1.03 * s, 1.1},         {0.85 * s, height - 0.4},
-      {1.5 * s, height - 0.12}, {1.6 * s, height - 0.1}, {1.6 * s, height + 0.02}};
+  const std::vector<glm::dvec2> profile = {{1.6 * s, -0.05},         {1.6 * s, 0.14},         {1.35 * s, 0.22},
+                                           {1.0 * s, 0.28},          {1.03 * s, 1.1},         {0.85 * s, height - 0.4},
+                                           {1.5 * s, height - 0.12}, {1.6 * s, height - 0.1}, {1.6 * s, height + 0.02}};
   MeshBuilder builder("column", material);
   builder.placeAt(foot);
   builder.lathe(profile, segments);
@@ -142,8 +141,7 @@ void addBalustrade(Scene& scene, const Materials& m, const Bay& bay) {
   rail.box({0.3, 0.78, -0.09}, {kBay - 0.3, 0.9, 0.09});
   addMesh(scene, rail.build());
   MeshBuilder builder("balusters", m.pale);
-  const std::vector<glm::dvec2> profile = {
-      {0.065, -0.03}, {0.045, 0.1}, {0.075, 0.3}, {0.035, 0.58}, {0.06, 0.80}};
+  const std::vector<glm::dvec2> profile = {{0.065, -0.03}, {0.045, 0.1}, {0.075, 0.3}, {0.035, 0.58}, {0.06, 0.80}};
   const int count = 4;
   for (int i = 0; i < count; ++i) {
     const double x = 0.45 + (kBay - 0.9) * i / (count - 1);
@@ -155,8 +153,7 @@ void addBalustrade(Scene& scene, const Materials& m, const Bay& bay) {
 
 // Hangs in the bay from a rod below the springing, gathered into folds that deepen downward.
 void addCurtain(Scene& scene, int material, int rodMaterial, const Bay& bay, int storey, uint32_t seed) {
-  const glm::dmat4 worldFromBay =
-      placed(bay.origin + glm::dvec3(0, storey * kStorey, 0), {0, 1, 0}, bay.turn);
+  const glm::dmat4 worldFromBay = placed(bay.origin + glm::dvec3(0, storey * kStorey, 0), {0, 1, 0}, bay.turn);
   MeshBuilder cloth("curtain", material);
   cloth.place(worldFromBay);
   const double phase = 6.28 * hashUnit(seed), left = 0.42, width = kBay - 0.84;

@@ -21,8 +21,7 @@ void addPointLight(Scene& scene, std::string name, glm::vec3 posW, float candela
 void addDirectionalLight(Scene& scene, std::string name, glm::vec3 directionW, float lux);
 
 // Shines from posW to targetW; the full cone is `outerDegrees` wide to each side of the axis.
-void addSpotLight(Scene& scene, std::string name, glm::vec3 posW, glm::vec3 targetW, float outerDegrees,
-                  float candela);
+void addSpotLight(Scene& scene, std::string name, glm::vec3 posW, glm::vec3 targetW, float outerDegrees, float candela);
 
 // Looks from eyeW to targetW, with a vertical field of view in degrees.
 void addCamera(Scene& scene, std::string name, glm::vec3 eyeW, glm::vec3 targetW, float fovDegrees);

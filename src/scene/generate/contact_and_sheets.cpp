@@ -42,8 +42,7 @@ Scene makeContact() {
   addSphere("marble", blue, {-1.6, 1.9}, 0.2, 32);
   addSphere("coarse ball", chalk, {-3.0, 1.2}, 0.45, 12);
 
-  const auto addColumn = [&](const char* name, int material, glm::dvec2 xz, double bottom, double top,
-                             double height) {
+  const auto addColumn = [&](const char* name, int material, glm::dvec2 xz, double bottom, double top, double height) {
     MeshBuilder builder(name, material);
     builder.placeAt({xz.x, 0, xz.y});
     const glm::dvec2 profile[2] = {{bottom, 0.0}, {top, height}};
@@ -82,17 +81,16 @@ void addFenceTexture(Scene& scene) {
 }
 
 // A leaf blade along x, pointed at both ends, bent down and folded along its rib.
-Mesh leafMesh(const std::string& name, int material, const glm::dmat4& worldFromLeaf, double length,
-              double width) {
+Mesh leafMesh(const std::string& name, int material, const glm::dmat4& worldFromLeaf, double length, double width) {
   MeshBuilder builder(name, material);
   builder.place(worldFromLeaf);
   builder.sheet(16, 6, [=](double s, double t) {
     // Not quite pointed: a width of 0 would leave the tips without a normal.
     const double half = 0.5 * width * (0.03 + 0.97 * std::sin(std::numbers::pi * s) * (1.2 - 0.4 * s));
     const double across = 2.0 * t - 1.0;
-    return glm::dvec3(
-        length * s, 0.12 * length * std::sin(2.2 * s) + 0.25 * half * across * across - 0.2 * length * s * s,
-        -half * across);
+    return glm::dvec3(length * s,
+                      0.12 * length * std::sin(2.2 * s) + 0.25 * half * across * across - 0.2 * length * s * s,
+                      -half * across);
   });
   return builder.build();
 }
@@ -130,16 +128,14 @@ Scene makeSheets() {
     const double height = 0.95 + 0.13 * k, turn = 137.5 * k;
     const glm::dmat4 worldFromLeaf =
         placed({0.0, height, 0.0}, {0, 1, 0}, turn) * placed({0.05, 0, 0}, {0, 0, 1}, 28.0 + 3.0 * k);
-    addMesh(scene,
-            leafMesh(fmt::format("leaf {}", k), leaf, worldFromLeaf, 1.15 - 0.07 * k, 0.42 - 0.02 * k));
+    addMesh(scene, leafMesh(fmt::format("leaf {}", k), leaf, worldFromLeaf, 1.15 - 0.07 * k, 0.42 - 0.02 * k));
   }
 
   // A square of lattice, 8 x 5 cells, standing free behind the pot.
   Mesh lattice = groundMesh("fence", fence, {0.0, 0.0}, {1.0, 1.0});
   const glm::vec3 corners[4] = {
       {-2.6f, 0.05f, -1.1f}, {0.6f, 0.05f, -2.2f}, {0.6f, 2.05f, -2.2f}, {-2.6f, 2.05f, -1.1f}};
-  const glm::vec3 normal(
-      glm::normalize(glm::cross(glm::dvec3(corners[1] - corners[0]), glm::dvec3(0, 1, 0))));
+  const glm::vec3 normal(glm::normalize(glm::cross(glm::dvec3(corners[1] - corners[0]), glm::dvec3(0, 1, 0))));
   for (int k = 0; k < 4; ++k) {
     lattice.positions[k] = corners[k];
     lattice.normals[k] = normal;

@@ -19,8 +19,8 @@ namespace {
 constexpr int kKinds = 3;
 
 // A figure turned on a lathe and fluted: its outline is given by a few knots, refined to `rings` steps.
-Mesh figureMesh(const char* name, int material, const std::vector<glm::dvec2>& knots, double fluting,
-                int flutes, int segments, int rings) {
+Mesh figureMesh(const char* name, int material, const std::vector<glm::dvec2>& knots, double fluting, int flutes,
+                int segments, int rings) {
   MeshBuilder builder(name, material);
   const auto outline = [&](double t) {
     // Catmull-Rom through the knots.
@@ -31,8 +31,7 @@ Mesh figureMesh(const char* name, int material, const std::vector<glm::dvec2>& k
     const glm::dvec2 p0 = knots[std::max(i - 1, 0)], p1 = knots[i], p2 = knots[i + 1],
                      p3 = knots[std::min(i + 2, last)];
     return 0.5 *
-           (2.0 * p1 +
-            f * (p2 - p0 + f * (2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3 + f * (3.0 * (p1 - p2) + p3 - p0))));
+           (2.0 * p1 + f * (p2 - p0 + f * (2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3 + f * (3.0 * (p1 - p2) + p3 - p0))));
   };
   const auto onFigure = [&](double u, int j) {
     if (j == 0 || j == rings) return glm::dvec3(0.0, j == 0 ? knots.front().y : knots.back().y, 0.0);
@@ -45,8 +44,7 @@ Mesh figureMesh(const char* name, int material, const std::vector<glm::dvec2>& k
   const auto normal = [&](int i, int j) {
     if (j == 0 || j == rings) return glm::dvec3(0, j == 0 ? -1 : 1, 0);
     const double u = static_cast<double>(i) / segments, h = 1e-4;
-    return glm::normalize(
-        glm::cross(onFigure(u + h, j) - onFigure(u - h, j), point(i, j + 1) - point(i, j - 1)));
+    return glm::normalize(glm::cross(onFigure(u + h, j) - onFigure(u - h, j), point(i, j + 1) - point(i, j - 1)));
   };
   builder.loop(segments, rings, point, normal);
   return builder.build();
@@ -96,8 +94,8 @@ Scene makeCrowd(uint64_t triangles) {
     Instance instance;
     instance.name = "figure";
     instance.mesh = k < kKinds ? k : static_cast<int>(hashUnit(seed + 3) * kKinds);
-    instance.worldFromMesh = glm::mat4(glm::scale(
-        placed({kPitch * x, 0, kPitch * z}, {0, 1, 0}, 360.0 * hashUnit(seed + 3)), glm::dvec3(size)));
+    instance.worldFromMesh = glm::mat4(
+        glm::scale(placed({kPitch * x, 0, kPitch * z}, {0, 1, 0}, 360.0 * hashUnit(seed + 3)), glm::dvec3(size)));
     scene.instances.push_back(std::move(instance));
   }
   const double half = 0.5 * kPitch * columns + 1.5;
@@ -105,11 +103,10 @@ Scene makeCrowd(uint64_t triangles) {
 
   // The lamp hangs over the crowd, above the tallest figure (2.5 m).
   const float reach = static_cast<float>(half);
-  addPointLight(scene, "lamp", {-0.25f * reach, 3.0f + 0.12f * reach, 0.2f * reach},
-                1.6f * reach * reach + 25.0f);
+  addPointLight(scene, "lamp", {-0.25f * reach, 3.0f + 0.12f * reach, 0.2f * reach}, 1.6f * reach * reach + 25.0f);
   addDirectionalLight(scene, "sun", {0.6f, -0.7f, -0.35f}, 2.5f);
-  addCamera(scene, "crowd", {0.55f * reach, 2.2f + 0.45f * reach, 1.35f * reach},
-            {-0.05f * reach, 0.6f, 0.1f * reach}, 50.0f);
+  addCamera(scene, "crowd", {0.55f * reach, 2.2f + 0.45f * reach, 1.35f * reach}, {-0.05f * reach, 0.6f, 0.1f * reach},
+            50.0f);
   addCamera(scene, "among", {0.9f, 1.9f, 0.5f * reach + 1.0f}, {-0.4f, 1.0f, 0.0f}, 55.0f);
   return scene;
 }

@@ -210,8 +210,7 @@ void addPipes(Scene& scene, const Materials& m) {
     std::vector<glm::dvec3> path = {{x, y, kHalfZ - 0.8}};
     constexpr int kBend = 8;
     for (int i = 0; i <= kBend; ++i) {
-      const glm::dvec2 c(std::cos(0.5 * std::numbers::pi * i / kBend),
-                         std::sin(0.5 * std::numbers::pi * i / kBend));
+      const glm::dvec2 c(std::cos(0.5 * std::numbers::pi * i / kBend), std::sin(0.5 * std::numbers::pi * i / kBend));
       path.emplace_back(x + 0.4 * (1.0 - c.x), y, z + 0.4 * (1.0 - c.y));
     }
     path.emplace_back(kHalfX - 0.4, y, z);
@@ -258,8 +257,8 @@ void addGoods(Scene& scene, const Materials& m) {
     const glm::dvec2 profile[] = {{0.30, 0.0},  {0.30, 0.29}, {0.32, 0.31}, {0.30, 0.33},
                                   {0.30, 0.60}, {0.32, 0.62}, {0.30, 0.64}, {0.30, 0.92}};
     MeshBuilder drum("drum", k % 3 == 0 ? m.pipe : m.steel);
-    drum.placeAt({-6.9 + 0.75 * (k % 3) + 0.1 * hashUnit(100u + k), -0.02,
-                  2.2 + 0.8 * (k / 3) + 0.1 * hashUnit(200u + k)});
+    drum.placeAt(
+        {-6.9 + 0.75 * (k % 3) + 0.1 * hashUnit(100u + k), -0.02, 2.2 + 0.8 * (k / 3) + 0.1 * hashUnit(200u + k)});
     drum.lathe(profile, 20);
     addMesh(scene, drum.build());
   }
@@ -275,8 +274,7 @@ void addGoods(Scene& scene, const Materials& m) {
   for (int k = 0; k < 7; ++k) {
     MeshBuilder bar("bar stock", k % 2 ? m.iron : m.brass);
     const double z = 2.04 + 0.12 * k;
-    bar.cylinder({-1.6 + 0.3 * hashUnit(300u + k), 0.765, z}, {2.2 + 0.4 * hashUnit(400u + k), 0.765, z},
-                 0.042, 12);
+    bar.cylinder({-1.6 + 0.3 * hashUnit(300u + k), 0.765, z}, {2.2 + 0.4 * hashUnit(400u + k), 0.765, z}, 0.042, 12);
     addMesh(scene, bar.build());
   }
 }

@@ -25,8 +25,7 @@ Scene makeSlope() {
   Scene scene;
   scene.name = "slope";
   const glm::dvec3 lightW(-4.6, 4.6, 3.4), eyeW(0.0, 0.0, 8.5);
-  constexpr std::array<double, 16> kAngles = {0,  10, 20, 30, 40, 50, 60, 66,
-                                              70, 74, 78, 81, 83, 85, 87, 88.5};
+  constexpr std::array<double, 16> kAngles = {0, 10, 20, 30, 40, 50, 60, 66, 70, 74, 78, 81, 83, 85, 87, 88.5};
   constexpr double kHalf = 0.42, kPitch = 1.5;  // metres
   for (size_t k = 0; k < kAngles.size(); ++k) {
     const double x = static_cast<double>(k % 4) - 1.5, y = 1.5 - static_cast<double>(k / 4);
@@ -38,9 +37,8 @@ Scene makeSlope() {
     const glm::dvec3 right = kHalf * glm::normalize(glm::cross(glm::dvec3(0, 1, 0), normal));
     const glm::dvec3 up = kHalf * glm::normalize(glm::cross(normal, right));
     const float t = static_cast<float>(k) / (kAngles.size() - 1);
-    const int material =
-        addMaterial(scene, fmt::format("tile {}", kAngles[k]),
-                    glm::mix(glm::vec3(0.75f, 0.72f, 0.62f), glm::vec3(0.62f, 0.30f, 0.20f), t), true);
+    const int material = addMaterial(scene, fmt::format("tile {}", kAngles[k]),
+                                     glm::mix(glm::vec3(0.75f, 0.72f, 0.62f), glm::vec3(0.62f, 0.30f, 0.20f), t), true);
     MeshBuilder builder(fmt::format("tile {} degrees", kAngles[k]), material);
     builder.quad(center - right - up, center + right - up, center + right + up, center - right + up);
     addMesh(scene, builder.build());

@@ -1,0 +1,165 @@
+#include "base/progress.h"
+#include "lab/bench/bench.h"
+#include "lab/core/map_set.h"
+#include "omni/cube_map.h"
+#include "omni/paraboloid_map.h"
+#include "truth/visibility.h"
+#include "vsv/volume_parameterization.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+constexpr int kMostRepeats = 3;  // a point of a curve needs less than a number in a table
+
+struct Stage {
+  std::string name;
+  std::function<double()> run;  // milliseconds
+};
+
+class Curves {
+ public:
+  Curves(std::string size, std::string unit, int repeats)
+      : growth_{.size = std::move(size), .unit = std::move(unit), .stages = {}, .points = {}},
+        repeats_(std::min(repeats, kMostRepeats)) {}
+
+  void addPoint(double size, std::string name, const std::vector<Stage>& stages) {
+    Growth::Point point{.size = size, .name = std::move(name), .ms = {}};
+    growth_.stages.clear();
+    for (const Stage& stage : stages) {
+      stage.run();
+      std::vector<double> times;
+      for (int i = 0; i < repeats_; ++i) times.push_back(stage.run());
+      growth_.stages.push_back(stage.name);
+      point.ms.push_back(median(times));
+    }
+    growth_.points.push_back(std::move(point));
+  }
+  Growth take() { return std::move(growth_); }
+
+ private:
+  Growth growth_;
+  int repeats_;
+};
+
+// A scene with one light as one parameterization takes it, and a map to draw.
+class Subject {
+ public:
+  Subject(const Session& session, const Parameterization& kind, int side, const BenchOptions& options)
+      : session_(session),
+        passes_(session.device(), session.view()),
+        exact_(computeExact(session, kind)),
+        maps_(session, passes_.renderers, fitMap(session, kind, exact_, side, options.mapOptions).fitted, exact_,
+              options.cull) {}
+
+  double build(MapContent content) { return maps_.redraw(content); }
+  double look(const char* bias) {
+    const Method method = methodFor(session_, {}, findBias(bias));
+    return timeVisibility(session_, passes_, maps_.with(method.bias->content), exact_, method, glsl::kFilterNone);
+  }
+  double bits() {
+    gpu::Commands commands(session_.device(), "bits");
+    passes_.renderers.volume.recordBits(commands, *maps_.with(MapContent::OneLayer).volume, Voxelization::Fused);
+    return commands.submitAndWait().wallMs;
+  }
+  double trace() {
+    const auto start = std::chrono::steady_clock::now();
+    computeTruth(session_.tracer(), exact_.light, exact_.receivers);
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+
+ private:
+  const Session& session_;
+  Passes passes_;
+  Exact exact_;
+  MapSet maps_;
+};
+
+Growth withTriangles(const gpu::DeviceOptions& device, const BenchOptions& options) {
+  Curves curves("triangles", "triangles of the scene crowd:N, picture of 512 x 512, cube of 6 x 512 x 512",
+                options.repeats);
+  for (int64_t count = 10'000; count <= options.mostTriangles; count *= 10) {
+    const Session session(device, {.scene = fmt::format("crowd:{}", count), .size = "512"});
+    Subject cube(session, cubeParameterization(), 512, options);
+    curves.addPoint(static_cast<double>(triangleCount(session.scene())), fmt::format("{}", count),
+                    {{"gbuffer", [&] { return session.timeGBuffer(); }},
+                     {"cube, one layer", [&] { return cube.build(MapContent::OneLayer); }},
+                     {"cube, two layers", [&] { return cube.build(MapContent::TwoLayers); }},
+                     {"visibility, constant", [&] { return cube.look("constant"); }},
+                     {"exact shadow", [&] { return cube.trace(); }}});
+  }
+  return curves.take();
+}
+
+Growth withMapSize(const Session& session, const BenchOptions& options) {
+  Curves curves("map texels", "texels of all layers", options.repeats);
+  for (int64_t side = 256; side <= 2048; side *= 2) {
+    const int64_t texels = 6 * side * side;
+    const int paraboloidSide = static_cast<int>(std::lround(std::sqrt(static_cast<double>(texels) / 2.0)));
+    Subject cube(session, cubeParameterization(), static_cast<int>(side), options);
+    Subject paraboloid(session, paraboloidParameterization(), paraboloidSide, options);
+    curves.addPoint(static_cast<double>(texels), fmt::format("{}", texels),
+                    {{"cube, one layer", [&] { return cube.build(MapContent::OneLayer); }},
+                     {"cube, two layers", [&] { return cube.build(MapContent::TwoLayers); }},
+                     {"paraboloid, one layer", [&] { return paraboloid.build(MapContent::OneLayer); }},
+                     {"visibility, cube, constant", [&] { return cube.look("constant"); }},
+                     {"visibility, cube, adaptive", [&] { return cube.look("adaptive"); }}});
+  }
+  return curves.take();
+}
+
+Growth withPictureSize(const Session& given, const gpu::DeviceOptions& device, const BenchOptions& options) {
+  Curves curves("pixels", "pixels of the picture, square, cube of 6 x 512 x 512", options.repeats);
+  for (int64_t side = 256; side <= 2048; side *= 2) {
+    SetupOptions setup = given.setup();
+    setup.size = fmt::format("{}", side);
+    const Session session(device, setup);
+    Subject cube(session, cubeParameterization(), 512, options);
+    curves.addPoint(static_cast<double>(side * side), setup.size,
+                    {{"gbuffer", [&] { return session.timeGBuffer(); }},
+                     {"visibility, constant", [&] { return cube.look("constant"); }},
+                     {"visibility, adaptive", [&] { return cube.look("adaptive"); }},
+                     {"visibility, dual", [&] { return cube.look("dual"); }},
+                     {"exact shadow", [&] { return cube.trace(); }}});
+  }
+  return curves.take();
+}
+
+Growth withVolumeSize(const Session& session, const BenchOptions& options) {
+  Curves curves("voxels", "voxels of the shadow volume, direct", options.repeats);
+  for (const VolumeSize& size : {VolumeSize{256, 256, 256}, VolumeSize{512, 512, 256}, VolumeSize{512, 512, 512},
+                                 VolumeSize{1024, 1024, 512}, VolumeSize{1024, 1024, 1024}}) {
+    BenchOptions sized = options;
+    sized.mapOptions.volumeSize = size;
+    sized.mapOptions.volumeSource = VolumeSource::Direct;
+    Subject volume(session, volumeParameterization(), 1024, sized);
+    curves.addPoint(static_cast<double>(size.alpha) * size.theta * size.phi, volumeSizeName(size),
+                    {{"volume, all", [&] { return volume.build(MapContent::OneLayer); }},
+                     {"volume, bits", [&] { return volume.bits(); }},
+                     {"visibility, adaptive", [&] { return volume.look("adaptive"); }}});
+  }
+  return curves.take();
+}
+
+}  // namespace
+
+std::vector<Growth> measureGrowth(const Session& session, const gpu::DeviceOptions& device,
+                                  const BenchOptions& options) {
+  Progress progress("bench", 4);
+  std::vector<Growth> growths;
+  progress.step("growth with map size");
+  growths.push_back(withMapSize(session, options));
+  progress.step("growth with picture size");
+  growths.push_back(withPictureSize(session, device, options));
+  progress.step("growth with volume size");
+  growths.push_back(withVolumeSize(session, options));
+  progress.step("growth with triangles");
+  growths.push_back(withTriangles(device, options));
+  return growths;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,353 @@
+#include "lab/compare/compare.h"
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "judge/filtered_truth.h"
+#include "lab/compare/robustness.h"
+#include "lab/compare/row_pictures.h"
+#include "lab/compare/tune.h"
+#include "lab/core/depth_images.h"
+#include "lab/core/map_params.h"
+#include "lab/picture/flip.h"
+#include "lab/picture/pictures.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+TruthSummary summarize(const Parameterization& map, const Exact& exact) {
+  return {.map = map.name(),
+          .lightName = exact.source.name,
+          .light = exact.light,
+          .scored = exact.receivers.scored,
+          .facingAway = exact.receivers.facingAway,
+          .outsideCone = exact.receivers.outsideCone,
+          .lit = exact.truth.litCount,
+          .marginFlipsHalf = exact.truth.marginFlipsHalf,
+          .marginFlipsDouble = exact.truth.marginFlipsDouble,
+          .margin = exact.truth.margin};
+}
+
+// A row before it is judged.
+struct Entry {
+  Method method;
+  std::optional<Tuning> tuning;
+  size_t row = 0;  // the first of its rows, one a filter
+};
+
+void describe(Row& row, const Entry& entry, const Judged& judged) {
+  const BiasMethod& bias = *entry.method.bias;
+  row.bias = bias.name;
+  row.tuning = entry.tuning;
+  for (const BiasKnob& knob : knobsOf(bias)) {
+    row.knobs.emplace_back(knob.name, static_cast<double>(entry.method.params.*knob.field));
+    row.knobUnits.emplace_back(unitName(knob.unit));
+  }
+  row.content = contentName(bias.content);
+  if (bias.hasEpsilon) row.epsilonAt = epsilonAtName(entry.method.params.epsilonAt);
+  const LabelImage& labels = judged.labels;
+  row.agree = labels.count(Label::Agree);
+  row.acne = labels.count(Label::Acne);
+  row.leak = labels.count(Label::Leak);
+  row.edgeShadow = labels.count(Label::EdgeShadow);
+  row.edgeLight = labels.count(Label::EdgeLight);
+  row.uncovered = labels.count(Label::Uncovered);
+  row.scored = row.agree + row.acne + row.leak + row.edgeShadow + row.edgeLight + row.uncovered;
+  row.grazing = judged.grazing;
+  row.edgeOn = judged.edgeOn.size();
+}
+
+double rmseOf(const Exact& exact, std::span<const float> visibility, std::span<const float> truth) {
+  double sum = 0.0;
+  for (size_t i = 0; i < truth.size(); ++i) {
+    if (exact.receivers.states[i] != PixelState::Scored) continue;
+    const double difference = static_cast<double>(visibility[i]) - static_cast<double>(truth[i]);
+    sum += difference * difference;
+  }
+  return std::sqrt(sum / static_cast<double>(exact.receivers.scored));
+}
+
+// Everything of one map: its rows, its summary, its pictures.
+class MapComparison {
+ public:
+  MapComparison(const Session& session, const CompareOptions& options, Passes& passes,
+                const Parameterization& parameterization, const Light& source, std::string folder, Progress& progress)
+      : session_(session),
+        options_(options),
+        passes_(passes),
+        parameterization_(parameterization),
+        source_(source),
+        folder_(std::move(folder)),
+        progress_(progress) {}
+
+  // False where the camera sees nothing that faces the light.
+  bool run(Comparison& comparison) {
+    step("exact shadow");
+    const Clock::time_point start = Clock::now();
+    exact_ = computeExact(session_, parameterization_, source_);
+    if (exact_.receivers.scored == 0) return false;
+    TruthSummary summary = summarize(parameterization_, exact_);
+    summary.receiversAndTraceMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    step("map");
+    const Fit fit =
+        fitMap(session_, parameterization_, exact_, mapSideOf(options_, parameterization_), options_.mapOptions);
+    summary.zNear = fit.fitted.zNear;
+    summary.zFar = fit.fitted.zFar;
+    summary.fitNote = fit.fitted.note;
+    summary.fitMs = fit.ms;
+    maps_ = std::make_unique<MapSet>(session_, passes_.renderers, fit.fitted, exact_, options_.cull);
+    for (const Filter* filter : options_.filters) filteredTruth(*filter);
+
+    std::vector<Entry> entries = chooseEntries();
+    for (Entry& entry : entries) {
+      entry.row = rows_.size();
+      step(entry.method.bias->name);
+      judgeEntry(entry);
+    }
+    timeRows(entries);
+    comparison.truths.push_back(summary);
+    comparison.maps.push_back(summarizeMap(fit.fitted));
+    comparison.rows.insert(comparison.rows.end(), rows_.begin(), rows_.end());
+    return true;
+  }
+
+ private:
+  void step(const std::string& what) { progress_.step(fmt::format("{}: {}", parameterization_.name(), what)); }
+
+  const FilteredTruth& filteredTruth(const Filter& filter) {
+    const auto found = truths_.find(filter.id);
+    if (found != truths_.end()) return found->second;
+    FilteredTruth truth;
+    truth.visibility = computeFilteredTruth(session_.tracer(), exact_.light, exact_.receivers, exact_.truth,
+                                            maps_->fitted(), filter.id);
+    truth.beauty = toSrgb8(renderRadiance(session_, passes_, exact_, truth.visibility));
+    return truths_.emplace(filter.id, std::move(truth)).first->second;
+  }
+
+  // Each bias at the options' knobs, and where a search is wanted once more at its best.
+  std::vector<Entry> chooseEntries() {
+    std::vector<Entry> entries;
+    for (const BiasMethod* bias : options_.biases) entries.push_back({.method = methodFor(session_, options_, *bias)});
+    if (!options_.tune) return entries;
+    std::optional<Robustness> robustness;
+    if (options_.tuneElsewhere) robustness.emplace(session_, exact_, options_, parameterization_);
+    Trial trial(session_, passes_, exact_, *maps_);
+    const size_t count = entries.size();
+    for (size_t i = 0; i < count; ++i) {
+      if (knobsOf(*entries[i].method.bias).empty()) continue;
+      step(fmt::format("{}, searching its best knob", entries[i].method.bias->name));
+      const TunedMethod tuned = tune(trial, entries[i].method);
+      entries.push_back({.method = tuned.method, .tuning = robustness ? robustness->judge(tuned) : tuningOf(tuned)});
+    }
+    return entries;
+  }
+
+  void judgeEntry(const Entry& entry) {
+    const DrawnMap& map = maps_->with(entry.method.bias->content);
+    const Judged judged = judge(session_, passes_, map, exact_, entry.method);
+    for (const Filter* filter : options_.filters) {
+      const FilteredTruth& truth = filteredTruth(*filter);
+      std::vector<float> visibility =
+          filter->id == glsl::kFilterNone
+              ? judged.visibility
+              : gnomon::filteredVisibility(session_, passes_, map, exact_, entry.method, filter->id);
+      for (const size_t pixel : judged.edgeOn) visibility[pixel] = truth.visibility[pixel];
+      Row row;
+      row.map = parameterization_.name();
+      row.light = source_.name;
+      row.mapSide = map.fitted.map.side;
+      row.mapRows = map.fitted.map.rows;
+      row.mapSize = mapSizeText(map.fitted);
+      row.mapParams = mapParams(map.fitted, options_.mapOptions);
+      row.layers = map.fitted.map.layerCount;
+      row.cull = cullModeName(options_.cull);
+      row.mapOptions = options_.mapOptions;
+      row.filter = filter->name;
+      describe(row, entry, judged);
+      row.rmse = rmseOf(exact_, visibility, truth.visibility);
+      const int width = exact_.receivers.width, height = exact_.receivers.height;
+      row.worstAcne = findWorstPlace(judged.labels, width, height, Label::Acne);
+      row.worstLeak = findWorstPlace(judged.labels, width, height, Label::Leak);
+      // Half a second a row at 1024 x 1024: what binary results have labels for.
+      const bool flips = options_.filters.size() > 1 || filter->id != glsl::kFilterNone;
+      Image8 beauty;
+      if (flips || !options_.outDir.empty()) beauty = toSrgb8(renderRadiance(session_, passes_, exact_, visibility));
+      if (flips) row.flip = computeFlip(truth.beauty, beauty).mean;
+      if (!options_.outDir.empty())
+        row.pictures = writeRowPictures(exact_, judged, visibility, beauty, truth, namesOf(row), options_.outDir);
+      rows_.push_back(std::move(row));
+    }
+  }
+
+  RowPictureNames namesOf(const Row& row) const {
+    RowPictureNames names;
+    names.labelStem = fmt::format("{}/{}{}", folder_, row.bias, row.tuning ? ".tuned" : "");
+    names.stem = names.labelStem + (row.filter == "none" ? "" : "." + row.filter);
+    names.title =
+        fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "", row.mapSide, row.mapRows);
+    names.writesLabels = row.filter == options_.filters.front()->name;
+    return names;
+  }
+
+  // Rounds run one after another through all rows, so that a machine that slows down slows all of them. A
+  // tuned row costs what its untuned one costs.
+  void timeRows(const std::vector<Entry>& entries) {
+    const size_t filterCount = options_.filters.size();
+    std::map<MapContent, std::vector<double>> build;
+    std::vector<std::vector<double>> shade(options_.biases.size() * filterCount);
+    for (int round = -1; round < options_.repeats; ++round) {  // round -1 warms up: pipelines compile at first use
+      step(round < 0 ? "timing, warm-up" : fmt::format("timing, {} of {}", round + 1, options_.repeats));
+      std::map<MapContent, double> drawn;
+      for (const BiasMethod* bias : options_.biases)
+        if (!drawn.contains(bias->content)) drawn[bias->content] = maps_->redraw(bias->content);
+      if (round >= 0)
+        for (const auto& [content, ms] : drawn) build[content].push_back(ms);
+      for (size_t i = 0; i < shade.size(); ++i) {
+        const Method& method = entries[i / filterCount].method;
+        const double ms = timeVisibility(session_, passes_, maps_->with(method.bias->content), exact_, method,
+                                         options_.filters[i % filterCount]->id);
+        if (round >= 0) shade[i].push_back(ms);
+      }
+    }
+    for (const Entry& entry : entries) {
+      const auto like = std::ranges::find(options_.biases, entry.method.bias) - options_.biases.begin();
+      for (size_t f = 0; f < filterCount; ++f) {
+        rows_[entry.row + f].buildMs = median(build[entry.method.bias->content]);
+        rows_[entry.row + f].shadeMs = median(shade[static_cast<size_t>(like) * filterCount + f]);
+      }
+    }
+  }
+
+  MapSummary summarizeMap(const FittedMap& fitted) {
+    MapSummary summary{.map = parameterization_.name(),
+                       .light = source_.name,
+                       .side = fitted.map.side,
+                       .rows = fitted.map.rows,
+                       .layers = fitted.map.layerCount,
+                       .zNear = fitted.zNear,
+                       .zFar = fitted.zFar,
+                       .solidAngles = computeSolidAngles(fitted)};
+    if (options_.outDir.empty()) return summary;
+    const bool two =
+        std::ranges::any_of(options_.biases, [](const BiasMethod* b) { return b->content == MapContent::TwoLayers; });
+    const DrawnMap& map = maps_->with(two ? MapContent::TwoLayers : MapContent::OneLayer);
+    const FilteredTruth& plain = filteredTruth(filters().front());
+    summary.pictures = writeMapPictures(session_, exact_, map, plain, options_.outDir, folder_);
+    for (const Filter* filter : options_.filters)
+      if (filter->id != glsl::kFilterNone)
+        summary.filteredTruths.emplace_back(filter->name,
+                                            writeFilteredTruth(exact_, filteredTruth(*filter), options_.outDir,
+                                                               fmt::format("{}/truth.{}", folder_, filter->name)));
+    return summary;
+  }
+
+  const Session& session_;
+  const CompareOptions& options_;
+  Passes& passes_;
+  const Parameterization& parameterization_;
+  const Light source_;
+  const std::string folder_;  // below outDir
+  Progress& progress_;
+  Exact exact_;
+  std::unique_ptr<MapSet> maps_;
+  std::map<int, FilteredTruth> truths_;  // by filter
+  std::vector<Row> rows_;
+};
+
+// One more row for each method on each map: what all lights together get wrong. The map's texels are those of
+// one light.
+void addSums(Comparison& comparison) {
+  std::vector<Row> sums;
+  for (const Row& row : comparison.rows) {
+    const auto same = [&](const Row& sum) {
+      return sum.map == row.map && sum.bias == row.bias && sum.filter == row.filter &&
+             sum.tuning.has_value() == row.tuning.has_value();
+    };
+    const auto found = std::ranges::find_if(sums, same);
+    if (found == sums.end()) {
+      sums.push_back(row);
+      Row& sum = sums.back();
+      sum.light = "all";
+      sum.isSum = true;
+      sum.pictures.clear();
+      sum.worstAcne = sum.worstLeak = std::nullopt;
+      sum.flip = std::nullopt;
+      if (sum.tuning) sum.knobs = {}, sum.knobUnits = {};  // each light has its own
+      continue;
+    }
+    const double squares = found->rmse * found->rmse * static_cast<double>(found->scored) +
+                           row.rmse * row.rmse * static_cast<double>(row.scored);
+    for (const auto count : {&Row::scored, &Row::agree, &Row::acne, &Row::leak, &Row::edgeShadow, &Row::edgeLight,
+                             &Row::uncovered, &Row::grazing, &Row::edgeOn})
+      (*found).*count += row.*count;
+    found->rmse = std::sqrt(squares / static_cast<double>(found->scored));
+    found->buildMs += row.buildMs;
+    found->shadeMs += row.shadeMs;
+  }
+  comparison.rows.insert(comparison.rows.end(), sums.begin(), sums.end());
+}
+
+int stepsPerMap(const CompareOptions& options) {
+  const auto tuned = std::ranges::count_if(
+      options.biases, [&](const BiasMethod* bias) { return options.tune && !knobsOf(*bias).empty(); });
+  return 3 + options.repeats + static_cast<int>(options.biases.size()) + 2 * static_cast<int>(tuned);
+}
+
+}  // namespace
+
+CompareOptions optionsFor(const CompareOptions& options, const Parameterization& map) {
+  CompareOptions own = options;
+  std::erase_if(own.biases, [&](const BiasMethod* bias) { return !map.answers(*bias); });
+  std::erase_if(own.filters,
+                [&](const Filter* filter) { return filter->id != glsl::kFilterNone && !map.takesFilters(); });
+  return own;
+}
+
+std::string mapSizeText(const FittedMap& fitted) {
+  const glsl::EpipolarGrid& grid = fitted.map.epipolar;
+  if (fitted.map.kind != glsl::kMapEpipolar) return fmt::format("{}", fitted.map.side);
+  return volumeSizeName({.alpha = grid.alphaCount, .theta = grid.thetaCount, .phi = grid.phiCount});
+}
+
+Comparison compare(const Session& session, const CompareOptions& options) {
+  Comparison comparison;
+  std::vector<double> gbuffer;
+  for (int i = 0; i < options.repeats; ++i) gbuffer.push_back(session.timeGBuffer());
+  comparison.gbufferMs = median(gbuffer);
+
+  Passes passes(session.device(), session.view());
+  struct Job {
+    const Parameterization* map;
+    Light light;
+    size_t number;  // of the light
+  };
+  std::vector<Job> jobs;
+  for (const Parameterization* map : options.maps) {
+    const std::vector<Light> lights = chooseLights(session.setup(), session.tracer(), *map);
+    for (size_t i = 0; i < lights.size(); ++i) jobs.push_back({map, lights[i], i});
+  }
+  const bool severalLights = jobs.size() > options.maps.size();
+  int steps = 0;
+  for (const Job& job : jobs) steps += stepsPerMap(optionsFor(options, *job.map));
+  Progress progress(options.progressTitle, steps);
+  for (const auto& [map, light, number] : jobs) {
+    const CompareOptions own = optionsFor(options, *map);
+    const std::string folder = severalLights ? fmt::format("{}/light{}", map->name(), number) : map->name();
+    MapComparison(session, own, passes, *map, light, folder, progress).run(comparison);
+  }
+  if (comparison.rows.empty()) computeExact(session, *options.maps.front());  // says why
+  if (severalLights) addSums(comparison);
+  return comparison;
+}
+
+}  // namespace gnomon

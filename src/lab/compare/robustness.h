@@ -1,0 +1,36 @@
+#pragma once
+// How good a tuned knob is where it was not tuned: nobody tunes a bias every frame. The same scene and light,
+// seen by another camera, and mapped at half the resolution.
+
+#include "lab/compare/compare.h"
+#include "lab/compare/tune.h"
+
+namespace gnomon {
+
+// The camera carried round the point that the picture's centre shows, by kOrbitDegrees about the vertical, as
+// far as nothing stands in the way.
+inline constexpr double kOrbitDegrees = 25.0;
+Camera orbitedCamera(const Session& session);
+
+// What was tuned, and not yet how good it is elsewhere.
+Tuning tuningOf(const TunedMethod& tuned);
+
+class Robustness {
+ public:
+  Robustness(const Session& session, const Exact& exact, const CompareOptions& options,
+             const Parameterization& parameterization);
+  ~Robustness();
+
+  // The tuned value there, and the best one there. Where the other camera sees nothing that faces the light,
+  // it is left out.
+  Tuning judge(const TunedMethod& tuned);
+
+ private:
+  struct Place;
+  Elsewhere judgeAt(Place& place, const TunedMethod& tuned);
+
+  std::unique_ptr<Session> otherSession_;
+  std::unique_ptr<Place> otherCamera_, otherMapSize_;
+};
+
+}  // namespace gnomon

@@ -1,0 +1,35 @@
+#pragma once
+// The pictures of a comparison, written below its folder.
+
+#include "lab/compare/compare.h"
+#include "lab/core/map_set.h"
+
+namespace gnomon {
+
+// The truth through one filter.
+struct FilteredTruth {
+  std::vector<float> visibility;  // one a pixel
+  Image8 beauty;
+};
+
+// Depth, second depth and gap where the map has two layers, and the truth.
+Pictures writeMapPictures(const Session& session, const Exact& exact, const DrawnMap& map, const FilteredTruth& truth,
+                          const std::filesystem::path& outDir, const std::string& mapName);
+
+Pictures writeFilteredTruth(const Exact& exact, const FilteredTruth& truth, const std::filesystem::path& outDir,
+                            const std::string& stem);
+
+struct RowPictureNames {
+  std::string stem;       // map/bias[.tuned][.filter]
+  std::string labelStem;  // map/bias[.tuned]: all filters share the labels, and the first one writes them
+  std::string title;
+  bool writesLabels = true;
+};
+Pictures writeRowPictures(const Exact& exact, const Judged& judged, std::span<const float> visibility,
+                          const Image8& beauty, const FilteredTruth& truth, const RowPictureNames& names,
+                          const std::filesystem::path& outDir);
+
+// The kWorstSide square with the most pixels of this label; none where there is not one.
+std::optional<WorstPlace> findWorstPlace(const LabelImage& labels, int width, int height, Label label);
+
+}  // namespace gnomon

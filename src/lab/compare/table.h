@@ -1,0 +1,22 @@
+#pragma once
+// The comparison as an aligned table for a terminal, best first.
+
+#include "lab/compare/compare.h"
+
+#include <string>
+
+namespace gnomon {
+
+// Rows by bias error, then by all wrong pixels, then as they ran.
+std::vector<Row> ranked(std::vector<Row> rows);
+
+std::string comparisonTable(const Comparison& comparison);
+
+// Of tuned rows: the value, how good it is elsewhere, and by what factor each method without a scene's knob
+// to guess beats the best constant and slope. Empty where nothing was tuned.
+std::string tuningTable(const Comparison& comparison);
+
+// What was measured, in two or three lines: scene, light, camera, the instrument's own error.
+std::string comparisonHeader(const Session& session, const Comparison& comparison);
+
+}  // namespace gnomon

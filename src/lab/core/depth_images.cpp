@@ -1,0 +1,44 @@
+#include "lab/core/depth_images.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace gnomon {
+
+DepthImages depthInMetres(const Session& session, const DrawnMap& map) {
+  const glsl::ShadowMap& shape = map.fitted.map;
+  const bool positional = map.fitted.positional;
+  std::vector<float> first;
+  if (map.volume) {
+    first = gpu::downloadAs<float>(session.device(), map.volume->occluders());
+    for (float& alpha : first) alpha = std::min(alpha / glsl::alphaUpper(shape.epipolar), 1.0f);
+  } else {
+    first = gpu::downloadAs<float>(session.device(), map.image->depth());
+  }
+  std::vector<float> second;
+  if (map.image && map.image->content() == MapContent::TwoLayers)
+    second = gpu::downloadAs<float>(session.device(), map.image->secondDepth());
+  const ImageF nothing(shape.side * shape.layerCount, shape.rows, 1, std::numeric_limits<float>::infinity());
+  DepthImages images{.first = nothing};
+  if (!second.empty()) images.second = images.gap = nothing;
+  for (int layer = 0; layer < shape.layerCount; ++layer) {
+    for (int y = 0; y < shape.rows; ++y) {
+      for (int x = 0; x < shape.side; ++x) {
+        const size_t texel = (static_cast<size_t>(layer) * shape.rows + y) * shape.side + x;
+        const glsl::Ray ray = glsl::mapTexelRay(shape, layer, glsl::mapTexelCenter(shape, {x, y}));
+        const auto along = [&](float depth) { return glsl::mapDistance(shape, layer, ray, depth); };
+        const auto fromLight = [&](float depth) {
+          const glm::vec3 posL = ray.origin + ray.dir * along(depth);
+          return positional ? glm::length(posL) : -posL.z;
+        };
+        if (first[texel] < 1.0f) *images.first.at(layer * shape.side + x, y) = fromLight(first[texel]);
+        if (second.empty() || second[texel] >= 1.0f) continue;
+        *images.second->at(layer * shape.side + x, y) = fromLight(second[texel]);
+        *images.gap->at(layer * shape.side + x, y) = along(second[texel]) - along(first[texel]);
+      }
+    }
+  }
+  return images;
+}
+
+}  // namespace gnomon

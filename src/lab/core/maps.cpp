@@ -1,0 +1,43 @@
+#include "lab/core/maps.h"
+
+#include "base/error.h"
+#include "omni/cube_map.h"
+#include "omni/paraboloid_map.h"
+#include "planar/planar_map.h"
+#include "vsv/volume_parameterization.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+const std::vector<const Parameterization*>& parameterizations() {
+  static const std::vector<const Parameterization*> all = [] {
+    std::vector<const Parameterization*> maps = planarParameterizations();
+    maps.push_back(&cubeParameterization());
+    maps.push_back(&paraboloidParameterization());
+    maps.push_back(&volumeParameterization());
+    return maps;
+  }();
+  return all;
+}
+
+std::vector<const Parameterization*> parseMaps(const std::string& list) {
+  std::string names;
+  for (const Parameterization* p : parameterizations()) names += (names.empty() ? "" : ", ") + std::string(p->name());
+  std::vector<const Parameterization*> chosen;
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto found =
+        std::ranges::find_if(parameterizations(), [&](const Parameterization* p) { return p->name() == word; });
+    if (found == parameterizations().end())
+      throw UsageError(fmt::format("--maps {}: no such map; choose from {}", word, names));
+    if (std::ranges::find(chosen, *found) == chosen.end()) chosen.push_back(*found);
+  }
+  if (chosen.empty()) throw UsageError(fmt::format("--maps is empty; choose from {}", names));
+  return chosen;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,42 @@
+#include "lab/core/method.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+int mapSideOf(const MapChoice& choice, const Parameterization& map) {
+  int side = choice.mapSide;
+  if (choice.mapTexels != 0) {
+    const double each = static_cast<double>(choice.mapTexels) / map.layerCount(choice.mapOptions);
+    side = each >= 0.0 ? static_cast<int>(std::lround(std::min(std::sqrt(each), 1e6))) : 0;
+  }
+  if (side < 2 || side > 16384)
+    throw UsageError(
+        fmt::format("a {} map's side of {} texels is outside 2..16384; choose another --map-size or --map-texels",
+                    map.name(), side));
+  return side;
+}
+
+Method methodFor(const Session& session, const KnobChoices& choices, const BiasMethod& bias) {
+  const float sceneScale = computeBounds(session.scene()).diagonal();
+  Method method{.bias = &bias, .params = defaultBiasParams(sceneScale)};
+  method.params.epsilonAt = choices.epsilonAt;
+  for (const BiasKnob& knob : bias.knobs)  // a user's knob is in no list
+    method.params.*knob.field = knob.defaultValue * (knob.defaultOfSceneScale ? sceneScale : 1.0f);
+  for (const KnobValue& knob : choices.knobs) method.params.*knob.knob->field = knob.value;
+  return method;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::ranges::sort(values);
+  const size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,35 @@
+#pragma once
+// What is chosen of a map and of a bias, and what follows from it: a side, a method with its knobs set.
+
+#include "lab/core/session.h"
+
+#include <vector>
+
+namespace gnomon {
+
+struct MapChoice {
+  int mapSide = 1024;     // texels of a layer's side
+  int64_t mapTexels = 0;  // of all layers together; not 0: picks each map's side instead of mapSide
+  MapOptions mapOptions;
+  CullMode cull = CullMode::Solids;
+};
+
+// The side of a map's layers, texels. Throws UsageError outside 2..16384.
+int mapSideOf(const MapChoice& choice, const Parameterization& map);
+
+struct KnobValue {
+  const BiasKnob* knob = nullptr;
+  float value = 0.0f;  // in the knob's unit
+};
+
+struct KnobChoices {
+  int epsilonAt = glsl::kEpsilonAtOccluder;
+  std::vector<KnobValue> knobs;  // that differ from their defaults
+};
+
+// A bias with its knobs as chosen, else at their defaults.
+Method methodFor(const Session& session, const KnobChoices& choices, const BiasMethod& bias);
+
+double median(std::vector<double> values);
+
+}  // namespace gnomon

@@ -1,0 +1,224 @@
+#include "lab/core/setup.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+std::optional<double> parseNumber(const std::string& text) {
+  double value = 0.0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<glm::vec3> tryVec3(const std::string& text) {
+  std::istringstream words(text);
+  glm::vec3 v(0.0f);
+  int count = 0;
+  for (std::string word; std::getline(words, word, ','); ++count) {
+    const std::optional<double> number = parseNumber(word);
+    if (!number || count == 3) return std::nullopt;
+    v[count] = static_cast<float>(*number);
+  }
+  if (count != 3) return std::nullopt;
+  return v;
+}
+
+template <typename T>
+std::string namesOf(const std::vector<T>& things) {
+  std::string names;
+  for (const T& thing : things) names += (names.empty() ? "" : ", ") + thing.name;
+  return names.empty() ? "none" : names;
+}
+
+// Whether looking down on the scene one sees nothing but its top: a room with a roof, whose inside is meant.
+bool isRoofed(const Tracer& tracer, const Bounds& bounds) {
+  constexpr int kGrid = 7;
+  const glm::vec3 extent = bounds.upper - bounds.lower;
+  int covered = 0;
+  for (int i = 0; i < kGrid * kGrid; ++i) {
+    const double u = 0.2 + 0.6 * (i % kGrid) / (kGrid - 1);
+    const double v = 0.2 + 0.6 * (i / kGrid) / (kGrid - 1);
+    const glm::dvec3 origin(bounds.lower.x + u * extent.x, bounds.upper.y + extent.y + 1.0,
+                            bounds.lower.z + v * extent.z);
+    const std::optional<SurfaceHit> hit = tracer.firstHit({.origin = origin, .dir = {0, -1, 0}});
+    if (hit && origin.y - hit->distance > bounds.upper.y - 0.25 * extent.y) ++covered;
+  }
+  return covered > 9 * kGrid * kGrid / 10;
+}
+
+// A little off the vertical through the centre, so that no symmetry of the scene hides an artefact.
+Light lightAboveCenter(const Tracer& tracer) {
+  const Bounds bounds = computeBounds(tracer.scene());
+  const glm::vec3 extent = bounds.upper - bounds.lower;
+  Light light;
+  light.name = "above the centre";
+  light.positionW = bounds.center() + glm::vec3(0.07f, 0.0f, 0.05f) * bounds.diagonal();
+  light.positionW.y =
+      isRoofed(tracer, bounds) ? bounds.center().y + 0.3f * extent.y : bounds.upper.y + 0.5f * bounds.diagonal();
+  const float distance = light.positionW.y - bounds.lower.y;
+  light.intensity = 10.0f * distance * distance;
+  return light;
+}
+
+Camera cameraThatSees(const Tracer& tracer) {
+  const Bounds bounds = computeBounds(tracer.scene());
+  const glm::vec3 extent = bounds.upper - bounds.lower;
+  if (isRoofed(tracer, bounds)) {
+    const glm::vec3 eye = bounds.center() + extent * glm::vec3(0.4f, 0.15f, 0.4f);
+    return lookAt("from a corner", eye, bounds.center() - extent * glm::vec3(0.1f, 0.15f, 0.1f), 1.2f);
+  }
+  constexpr float kFov = 0.7854f;  // 45 degrees
+  const float distance = 0.5f * bounds.diagonal() / std::sin(0.5f * kFov);
+  const glm::vec3 eye = bounds.center() + glm::normalize(glm::vec3(0.55f, 0.5f, 0.8f)) * distance;
+  return lookAt("sees the scene", eye, bounds.center(), kFov);
+}
+
+// The first light of a kind the map is made for, else the first it can make do with.
+Light firstLightFor(const Tracer& tracer, const Parameterization& map) {
+  for (const auto wanted : {Parameterization::Takes::Yes, Parameterization::Takes::IfNothingElse})
+    for (const Light& light : tracer.scene().lights)
+      if (map.takes(light.type) == wanted) return light;
+  return lightAboveCenter(tracer);
+}
+
+Light findLight(const Scene& scene, const std::string& text) {
+  const auto named = std::ranges::find(scene.lights, text, &Light::name);
+  if (named != scene.lights.end()) return *named;
+  const std::optional<glm::vec3> position = tryVec3(text);
+  if (!position)
+    throw WorldError(fmt::format("--light {}: the scene has no light of this name; it has {}; or write x,y,z", text,
+                                 namesOf(scene.lights)));
+  Light light;
+  light.name = text;
+  light.positionW = *position;
+  const float distance = std::max(glm::distance(*position, computeBounds(scene).center()), 1e-3f);
+  light.intensity = 10.0f * distance * distance;
+  return light;
+}
+
+// eye:x,y,z,target:x,y,z[,fov:deg]
+Camera parseCamera(const std::string& text) {
+  std::optional<glm::vec3> eye, target;
+  double fov = 60.0;
+  std::string key, value;
+  const auto take = [&] {
+    if (key.empty()) return;
+    if (key == "eye")
+      eye = parseVec3("--camera eye", value);
+    else if (key == "target")
+      target = parseVec3("--camera target", value);
+    else if (key == "fov" && parseNumber(value))
+      fov = *parseNumber(value);
+    else
+      throw UsageError(fmt::format("--camera {}: '{}:{}' is not understood; write eye:x,y,z,target:x,y,z[,fov:degrees]",
+                                   text, key, value));
+  };
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const size_t colon = word.find(':');
+    if (colon == std::string::npos) {
+      value += "," + word;
+      continue;
+    }
+    take();
+    key = word.substr(0, colon);
+    value = word.substr(colon + 1);
+  }
+  take();
+  if (!eye || !target || *eye == *target)
+    throw UsageError(
+        fmt::format("--camera {}: needs an eye and another target; write eye:x,y,z,target:x,y,z[,fov:degrees]", text));
+  if (!(fov >= 1.0 && fov <= 170.0))
+    throw UsageError(fmt::format("--camera {}: fov {} is outside 1..170 degrees", text, fov));
+  return lookAt("from the command line", *eye, *target, static_cast<float>(glm::radians(fov)));
+}
+
+}  // namespace
+
+PictureSize parseSize(const std::string& text) {
+  PictureSize size;
+  char by = 0, rest = 0;
+  std::istringstream in(text);
+  in >> size.width;
+  if (in >> by) {
+    in >> size.height;
+    if (by != 'x' || !in || in >> rest) size.width = 0;
+  } else {
+    size.height = size.width;
+  }
+  if (size.width < 1 || size.height < 1 || size.width > 16384 || size.height > 16384)
+    throw UsageError(fmt::format("--size {}: write N or WxH, each 1..16384 pixels", text));
+  return size;
+}
+
+glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
+  const std::optional<glm::vec3> v = tryVec3(text);
+  if (!v) throw UsageError(fmt::format("{} {}: write three numbers, x,y,z", flag, text));
+  return *v;
+}
+
+Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {
+  const Scene& scene = tracer.scene();
+  Light light = options.light.empty() ? firstLightFor(tracer, map) : findLight(scene, options.light);
+  if (!options.direction.empty()) {
+    const glm::vec3 direction = parseVec3("--direction", options.direction);
+    if (glm::length(direction) == 0.0f) throw UsageError("--direction 0,0,0 has no direction; write x,y,z");
+    light.directionW = glm::normalize(direction);
+    if (light.type == LightType::Point) light.type = LightType::Spot;
+  }
+  if (options.coneDegrees) {
+    if (!(*options.coneDegrees >= 1.0 && *options.coneDegrees <= 170.0))
+      throw UsageError(fmt::format("--cone {}: a spot's full angle is 1..170 degrees", *options.coneDegrees));
+    light.outerConeRad = static_cast<float>(glm::radians(0.5 * *options.coneDegrees));
+  }
+  if (map.takes(light.type) == Parameterization::Takes::No)
+    throw WorldError(
+        fmt::format("--light {}: a directional light has no position, so a {} map cannot be made of it; take "
+                    "--maps directional, or another light, or x,y,z",
+                    light.name, map.name()));
+  return light;
+}
+
+std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {
+  if (options.light != "all") return {chooseLight(options, tracer, map)};
+  std::vector<Light> lights;
+  for (const auto wanted : {Parameterization::Takes::Yes, Parameterization::Takes::IfNothingElse}) {
+    if (!lights.empty()) break;
+    for (const Light& light : tracer.scene().lights) {
+      if (map.takes(light.type) != wanted) continue;
+      SetupOptions one = options;
+      one.light = light.name;
+      lights.push_back(chooseLight(one, tracer, map));
+    }
+  }
+  if (lights.empty())
+    throw WorldError(
+        fmt::format("--light all: the scene has no light that a {} map can be made of; it has {}; "
+                    "write x,y,z",
+                    map.name(), namesOf(tracer.scene().lights)));
+  return lights;
+}
+
+Camera chooseCamera(const SetupOptions& options, const Tracer& tracer) {
+  const Scene& scene = tracer.scene();
+  if (options.camera.empty()) return scene.cameras.empty() ? cameraThatSees(tracer) : scene.cameras.front();
+  const auto named = std::ranges::find(scene.cameras, options.camera, &Camera::name);
+  if (named != scene.cameras.end()) return *named;
+  if (options.camera.find(':') != std::string::npos) return parseCamera(options.camera);
+  throw WorldError(
+      fmt::format("--camera {}: the scene has no camera of this name; it has {}; or write "
+                  "eye:x,y,z,target:x,y,z[,fov:degrees]",
+                  options.camera, namesOf(scene.cameras)));
+}
+
+}  // namespace gnomon

@@ -1,0 +1,43 @@
+#pragma once
+// From the words of a command line to what is measured: a scene, a light, a camera, a picture size.
+
+#include "shadow/parameterization.h"
+#include "truth/tracer.h"
+
+#include <optional>
+#include <string>
+
+namespace gnomon {
+
+struct SetupOptions {
+  std::string scene;      // a glTF file or a generated scene's name
+  std::string light;      // NAME or x,y,z; empty: the first light the map can take, else one above the scene's centre
+  std::string camera;     // NAME or eye:x,y,z,target:x,y,z[,fov:deg]; empty: the first, else one that sees the scene
+  std::string direction;  // x,y,z: the way the light shines; empty: the light's own, else where the camera looks
+  std::optional<double> coneDegrees;  // full angle of a spot
+  std::string size = "1024";          // N or WxH, pixels
+};
+
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+
+// "640x480" or "512". Throws UsageError outside 1..16384.
+PictureSize parseSize(const std::string& text);
+
+// "1,2,3". Throws UsageError that names `flag`.
+glm::vec3 parseVec3(const std::string& flag, const std::string& text);
+
+// The light a map is made for. Throws UsageError (malformed) or WorldError (none of that name: lists those
+// there are; or one that the map cannot take).
+Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map);
+
+// The same; and for --light all every light of the scene that the map is made for (where there is none, those
+// it can make do with). At least one.
+std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& tracer, const Parameterization& map);
+
+// Throws UsageError (malformed) or WorldError (none of that name: lists those there are).
+Camera chooseCamera(const SetupOptions& options, const Tracer& tracer);
+
+}  // namespace gnomon

@@ -1,0 +1,109 @@
+#include "lab/fog/fog.h"
+
+#include "base/progress.h"
+#include "lab/fog/fog_motion.h"
+#include "lab/fog/fog_pictures.h"
+#include "lab/fog/fog_reference.h"
+#include "lab/picture/flip.h"
+#include "vsv/volume_parameterization.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+// In a density every integrator marches, and those of a volume differ in nothing: they are one, `bits`.
+std::vector<MediaMethod> methodsOf(const FogOptions& options) {
+  std::vector<MediaMethod> methods;
+  for (Integrator integrator : options.integrators) {
+    const bool marches = integrator == Integrator::March || options.medium.density != nullptr;
+    if (integrator != Integrator::March && marches) integrator = Integrator::Bits;
+    for (const int steps : marches ? options.steps : std::vector{0}) {
+      const auto same = [&](const MediaMethod& m) { return m.integrator == integrator && m.steps == steps; };
+      if (std::ranges::none_of(methods, same)) methods.push_back({.integrator = integrator, .steps = steps});
+    }
+  }
+  return methods;
+}
+
+MediaRow rowOf(const MediaMethod& method, const FogMethodResult& measured, const FogOptions& options) {
+  const bool march = method.integrator == Integrator::March;
+  return {.method = method,
+          .map = march ? options.marchMap->name() : volumeParameterization().name(),
+          .mapSize = march ? std::to_string(options.mapSide) : volumeSizeName(options.map.volumeSize),
+          .mapMs = measured.mapMs,
+          .tableMs = measured.tableMs,
+          .integrateMs = measured.integrateMs};
+}
+
+void judgeRows(FogResult& result) {
+  const ImageF& reference = result.reference->inScattered;
+  const Image8 exact = exposed(composed(result.view, reference), result.exposure);
+  for (size_t i = 0; i < result.rows.size(); ++i) {
+    result.rows[i].relRmse = relativeRmse(result.inScattered[i], reference);
+    result.rows[i].relRmse99 = relativeRmse(result.inScattered[i], reference, 0.99);
+    result.rows[i].flip =
+        computeFlip(exact, exposed(composed(result.view, result.inScattered[i]), result.exposure)).mean;
+  }
+  result.worst = worstMediaPlace(result.inScattered.front(), reference);
+  result.equalTerms = equalTerms(result.rows);
+}
+
+void writePictures(const FogOptions& options, FogResult& result) {
+  const ImageF* reference = result.reference ? &result.reference->inScattered : nullptr;
+  for (size_t i = 0; i < result.rows.size(); ++i) {
+    std::string stem = "media/" + mediaMethodName(result.rows[i].method);
+    std::ranges::replace(stem, ' ', '_');
+    result.rows[i].pictures = writeMediaRowPictures(result.view, result.inScattered[i], reference, result.worst,
+                                                    {result.exposure, result.mediumExposure}, stem, options.outDir);
+  }
+  if (reference == nullptr) return;
+  result.pictures = writeMediaRowPictures(result.view, *reference, nullptr, std::nullopt,
+                                          {result.exposure, result.mediumExposure}, "media/reference", options.outDir);
+}
+
+}  // namespace
+
+FogResult runFog(const Session& session, const FogOptions& options) {
+  FogResult result;
+  Passes passes(session.device(), session.view());
+  {
+    Progress progress("fog", 2);
+    progress.step("surfaces");
+    result.view = lookIntoFog(session, passes, fogLights(session), options.medium);
+    std::vector<double> gbufferMs;
+    for (int i = 0; i < std::max(options.repeats, 1); ++i) gbufferMs.push_back(session.timeGBuffer());
+    result.gbufferMs = median(gbufferMs);
+
+    progress.step("integrating");
+    const FogMethodOptions how{.methods = methodsOf(options),
+                               .marchMap = options.marchMap,
+                               .map = options.map,
+                               .mapSide = options.mapSide,
+                               .cull = options.cull,
+                               .repeats = options.repeats};
+    const std::vector<FogMethodResult> measured = runFogMethods(session, passes.renderers, result.view, how);
+    for (size_t i = 0; i < measured.size(); ++i) {
+      result.rows.push_back(rowOf(how.methods[i], measured[i], options));
+      result.inScattered.push_back(measured[i].inScattered);
+    }
+  }
+  if (options.truth) {
+    KeptReference kept = referenceFor(session, result.view, options.reference, options.cache);
+    result.reference = std::move(kept.reference);
+    result.referenceFromCache = kept.fromCache;
+  }
+  result.exposure =
+      exposureFor(result.view, result.reference ? result.reference->inScattered : result.inScattered.front());
+  result.mediumExposure =
+      mediumExposureFor(result.reference ? result.reference->inScattered : result.inScattered.front());
+  if (result.reference) judgeRows(result);
+  if (options.motion) runMotion(session, passes.renderers, options, result);
+  if (!options.outDir.empty()) writePictures(options, result);
+  return result;
+}
+
+}  // namespace gnomon

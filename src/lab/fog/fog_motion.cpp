@@ -1,0 +1,158 @@
+#include "lab/fog/fog_motion.h"
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "lab/fog/fog_reference.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+extern char** environ;
+
+namespace gnomon {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFramesPerSecond = 24;
+
+fs::path findProgram(const char* name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path program = fs::path(folder.empty() ? "." : folder) / name;
+    if (::access(program.c_str(), X_OK) == 0 && fs::is_regular_file(program)) return program;
+  }
+  return {};
+}
+
+// Whether it ended with 0.
+bool runProgram(const fs::path& program, std::vector<std::string> words) {
+  words.insert(words.begin(), program.string());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  if (posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ) != 0) return false;
+  int status = 0;
+  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+// Written aside by ffmpeg, then renamed.
+bool writeVideo(const fs::path& ffmpeg, const fs::path& frames, const fs::path& video) {
+  const fs::path aside = video.parent_path() / (video.stem().string() + ".part.mp4");
+  const bool made = runProgram(ffmpeg, {"-v", "error", "-y", "-framerate", std::to_string(kFramesPerSecond), "-i",
+                                        (frames / "%04d.png").string(), "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                        "-pix_fmt", "yuv420p", aside.string()});
+  std::error_code failure;
+  if (made) fs::rename(aside, video, failure);
+  if (!made || failure) fs::remove(aside, failure);
+  return made && !failure;
+}
+
+std::string stemOf(const MediaMethod& method) {
+  std::string stem = mediaMethodName(method);
+  std::ranges::replace(stem, ' ', '_');
+  return stem;
+}
+
+std::string writeVideos(const fs::path& folder, const std::vector<std::string>& stems) {
+  const fs::path ffmpeg = findProgram("ffmpeg");
+  if (ffmpeg.empty()) return "frames as PNG; no video, since there is no ffmpeg on PATH";
+  for (const std::string& stem : stems)
+    if (!writeVideo(ffmpeg, folder / stem, folder / (stem + ".mp4")))
+      return fmt::format("frames as PNG; ffmpeg failed on those of {}", stem);
+  return "frames as PNG, and a video of each";
+}
+
+// The session as its camera sees the frame, and the lights of the frame.
+struct Moment {
+  std::unique_ptr<Session> moved;
+  const Session* session = nullptr;
+  std::vector<Light> lights;
+};
+
+Moment momentAt(const Session& session, const std::vector<Light>& lights, const FogMotion& motion, int frame) {
+  Moment moment{.session = &session, .lights = lights};
+  if (motion.camera) {
+    Camera camera = session.camera();
+    camera.worldFromEye[3] = glm::vec4(placeAt(motion, glm::vec3(camera.worldFromEye[3]), frame), 1.0f);
+    moment.moved = std::make_unique<Session>(session, camera);
+    moment.session = moment.moved.get();
+  } else {
+    for (Light& light : moment.lights) light.positionW = placeAt(motion, light.positionW, frame);
+  }
+  return moment;
+}
+
+}  // namespace
+
+glm::vec3 placeAt(const FogMotion& motion, const glm::vec3& startW, int frame) {
+  return startW + motion.offsetW * (static_cast<float>(frame) / static_cast<float>(motion.frames - 1));
+}
+
+FogMotion parseMotion(const std::string& text, int frames) {
+  const size_t colon = text.find(':');
+  const std::string what = text.substr(0, colon);
+  if (colon == std::string::npos || (what != "light" && what != "camera"))
+    throw UsageError(fmt::format("--move {}: write light:x,y,z or camera:x,y,z, in metres", text));
+  if (frames < 2 || frames > kMostFrames)
+    throw UsageError(fmt::format("--frames {}: a motion has 2..{} frames", frames, kMostFrames));
+  FogMotion motion{
+      .frames = frames, .camera = what == "camera", .offsetW = parseVec3("--move", text.substr(colon + 1))};
+  if (motion.offsetW == glm::vec3(0.0f))
+    throw UsageError(fmt::format("--move {}: nothing moves; write how far, in metres", text));
+  return motion;
+}
+
+void runMotion(const Session& session, const Renderers& renderers, const FogOptions& options, FogResult& result) {
+  const FogMotion& motion = *options.motion;
+  FogMethodOptions how{
+      .marchMap = options.marchMap, .map = options.map, .mapSide = options.mapSide, .cull = options.cull};
+  std::vector<std::string> stems;
+  for (const MediaRow& row : result.rows) {
+    how.methods.push_back(row.method);
+    stems.push_back(stemOf(row.method));
+  }
+  if (options.truth) stems.emplace_back("reference");
+  std::vector<ImageF> before(stems.size());
+  std::vector<double> beyond(result.rows.size(), 0.0);
+  double meanSum = 0.0;
+  Progress progress("frames", motion.frames);
+  for (int frame = 0; frame < motion.frames; ++frame) {
+    progress.step("");
+    const Moment moment = momentAt(session, result.view.lights, motion, frame);
+    Passes passes(moment.session->device(), moment.session->view());
+    FogView view = lookIntoFog(*moment.session, passes, moment.lights, options.medium);
+    std::vector<ImageF> images;
+    for (FogMethodResult& method : runFogMethods(*moment.session, renderers, view, how))
+      images.push_back(std::move(method.inScattered));
+    if (options.truth)
+      images.push_back(referenceFor(*moment.session, view, options.reference, options.cache).reference.inScattered);
+    for (size_t i = 0; i < images.size() && !options.outDir.empty(); ++i)
+      writePng(options.outDir / "frames" / stems[i] / fmt::format("{:04}.png", frame),
+               exposed(composed(view, images[i]), result.exposure));
+    if (options.truth) {
+      meanSum += meanValue(images.back());
+      for (size_t i = 0; i < beyond.size() && frame > 0; ++i)
+        beyond[i] += changeBeyond(before[i], images[i], before.back(), images.back());
+    }
+    before = std::move(images);
+  }
+  const double mean = meanSum / motion.frames;
+  for (size_t i = 0; i < beyond.size() && mean > 0.0; ++i)
+    result.rows[i].flicker = beyond[i] / (motion.frames - 1) / mean;
+  if (!options.outDir.empty()) result.motionNote = writeVideos(options.outDir / "frames", stems);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,18 @@
+#pragma once
+// Light shafts while the light or the camera moves: frames, a video, and how much they flicker.
+
+#include "lab/fog/fog.h"
+
+namespace gnomon {
+
+// "light:x,y,z" or "camera:x,y,z", metres. Throws UsageError.
+FogMotion parseMotion(const std::string& text, int frames);
+
+// Runs the methods of `result.rows` on every frame; sets their flicker where there is a reference, writes
+// frames below the options' folder, and says in `result.motionNote` what became of the video.
+void runMotion(const Session& session, const Renderers& renderers, const FogOptions& options, FogResult& result);
+
+// Whether the path has been taken: the camera's or the light's place at a frame.
+glm::vec3 placeAt(const FogMotion& motion, const glm::vec3& startW, int frame);
+
+}  // namespace gnomon

@@ -1,0 +1,24 @@
+#pragma once
+// The media reference, kept on disk: it costs some ten thousand rays where a picture costs one, and does not
+// change while the scene, the lights, the camera and the medium do not. Beside the compiled shaders
+// (GNOMON_CACHE_DIR), under a hash of everything that decides it; a damaged file is computed anew.
+
+#include "gpu/spirv_cache.h"
+#include "lab/fog/fog_view.h"
+
+namespace gnomon {
+
+struct KeptReference {
+  MediaReference reference;
+  bool fromCache = false;
+};
+KeptReference referenceFor(const Session& session, const FogView& view, const MediaReferenceOptions& options,
+                           bool cache);
+
+// What tells one reference from another.
+gpu::Hash128 referenceKey(const Session& session, const FogView& view, const MediaReferenceOptions& options);
+
+// Where it is kept; empty where there is no cache.
+std::filesystem::path referenceFile(const gpu::Hash128& key);
+
+}  // namespace gnomon

@@ -1,0 +1,108 @@
+#include "planar/layer_points.h"
+
+#include "planar/cascades.h"
+#include "planar/convex_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+using Points = std::vector<glm::dvec2>;
+
+// A point light cannot stand nearer to a caster than this share of the scene's diagonal.
+constexpr double kLeastNear = 1e-5;
+
+// A file may say that a spot shines to all sides of a half space, which no window holds.
+constexpr double kWidestConeRad = 1.5533430342749532;  // 89 degrees
+
+struct Slice {
+  double nearest = 0.0;  // view depths, metres
+  double farthest = 0.0;
+};
+
+// The first slice begins at the camera and the last has no end, so that together they hold all that is seen.
+std::vector<Slice> viewSlices(const FitInput& input, int count) {
+  double nearest = 1e30;
+  double farthest = 0.0;
+  for (const glm::dvec3& receiver : input.receiversW) {
+    nearest = std::min(nearest, viewDepth(input.camera, receiver));
+    farthest = std::max(farthest, viewDepth(input.camera, receiver));
+  }
+  std::vector<Slice> slices(static_cast<size_t>(count), {0.0, 1e30});
+  if (input.receiversW.empty() || !(nearest > 0.0)) return slices;
+  const std::vector<double> splits = cascadeSplits(nearest, farthest, count);
+  for (size_t i = 1; i < slices.size(); ++i) slices[i - 1].farthest = slices[i].nearest = splits[i];
+  return slices;
+}
+
+double tanCone(const FitInput& input) {
+  return std::tan(std::min(input.light.outerConeRad, kWidestConeRad));
+}
+
+// The pyramid about a spot's cone.
+void cutToCone(ConvexBody& body, const FitInput& input, const AxisFrame& frame, double least) {
+  const double width = tanCone(input);
+  const auto cutThroughLight = [&](const glm::dvec3& normal, double offset) {
+    body.cut(normal, -glm::dot(normal, frame.originW) + offset);
+  };
+  const glm::dvec3 ahead = -frame.worldFromLight[2];
+  for (const double sign : {1.0, -1.0})
+    for (int axis = 0; axis < 2; ++axis) cutThroughLight(ahead * width + sign * frame.worldFromLight[axis], 0.0);
+  cutThroughLight(ahead, -least);
+}
+
+void addTight(Points& points, const FitInput& input, const AxisFrame& frame, const Bounds& bounds, const Slice& slice) {
+  ConvexBody body(bounds);
+  // clipFromWorld maps to reversed depth without a far end: z is the near plane's distance everywhere.
+  const double nearPlane = static_cast<double>(input.camera.clipFromWorld[3][2]);
+  body.cutToCamera(input.camera, std::max(slice.nearest, nearPlane), slice.farthest);
+  if (frame.perspective) cutToCone(body, input, frame, leastCasterDepth(bounds));
+  for (const glm::dvec3& corner : body.corners()) points.emplace_back(frame.planeFromWorld(corner));
+}
+
+void addWhole(Points& points, const FitInput& input, const AxisFrame& frame, const Bounds& bounds) {
+  for (int i = 0; i < 8; ++i) {
+    const glm::vec3 corner((i & 1) != 0 ? bounds.upper.x : bounds.lower.x,
+                           (i & 2) != 0 ? bounds.upper.y : bounds.lower.y,
+                           (i & 4) != 0 ? bounds.upper.z : bounds.lower.z);
+    if (!frame.perspective)
+      points.emplace_back(frame.planeFromWorld(glm::dvec3(corner)));
+    else if (i < 4)
+      points.emplace_back(tanCone(input) * glm::dvec2((i & 1) * 2 - 1, (i & 2) - 1));
+  }
+}
+
+}  // namespace
+
+double leastCasterDepth(const Bounds& sceneBounds) {
+  return kLeastNear * std::max(static_cast<double>(sceneBounds.diagonal()), 1e-6);
+}
+
+std::vector<std::vector<glm::dvec2>> layerPoints(const FitInput& input, const AxisFrame& frame,
+                                                 const Bounds& sceneBounds, int cascadeCount) {
+  const std::vector<Slice> slices = viewSlices(input, cascadeCount);
+  std::vector<Points> layers(slices.size());
+  for (size_t i = 0; i < slices.size(); ++i) {
+    const bool whole = input.options.fit == WindowFit::None && i + 1 == slices.size();
+    if (whole)
+      addWhole(layers[i], input, frame, sceneBounds);
+    else if (input.options.fit != WindowFit::Focused)
+      addTight(layers[i], input, frame, sceneBounds, slices[i]);
+  }
+  // Receivers are in every fit: what rounds out of a body's edge is covered all the same.
+  for (const glm::dvec3& receiver : input.receiversW) {
+    const double depth = viewDepth(input.camera, receiver);
+    const auto slice = std::ranges::find_if(slices, [&](const Slice& s) { return depth < s.farthest; });
+    layers[static_cast<size_t>(slice - slices.begin())].emplace_back(frame.planeFromWorld(receiver));
+  }
+  // One unit around the axis where there is nothing to cover at all.
+  if (layers.back().empty()) layers.back() = {glm::dvec2(-1.0), glm::dvec2(1.0)};
+  for (size_t i = layers.size() - 1; i-- > 0;)
+    if (layers[i].empty()) layers[i] = layers[i + 1];
+  return layers;
+}
+
+}  // namespace gnomon

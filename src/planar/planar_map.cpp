@@ -1,0 +1,233 @@
+#include "planar/planar_map.h"
+
+#include "planar/layer_points.h"
+#include "planar/warp.h"
+#include "planar/window.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace gnomon {
+
+namespace {
+
+// The near and far ends are kept clear of the surfaces they were fitted to by a share of the range, far more
+// than what 32-bit matrices round (1e-6) and far less than what costs precision.
+constexpr double kRangeSlack = 1e-3;
+// The least range, of the scene's diagonal: a plane across the light's axis has none.
+constexpr double kLeastRange = 1e-6;
+// A receiver this share of the window's half beyond its edge may still round into the layer.
+constexpr double kEdgeSlack = 1e-3;
+
+struct LayerFit {
+  glm::dmat3 clipFromPlane{1.0};
+  glm::dvec4 depthRow{0.0};  // of clipFromLight
+  double zNear = 0.0;        // metres, of what the layer was fitted to
+  double zFar = 1.0;
+};
+
+// Vulkan clip space from the light's frame. A row r of clipFromPlane is r.x x + r.y y + r.z (1 or -z).
+glm::dvec4 lightRow(const glm::dvec3& r, bool perspective) {
+  return perspective ? glm::dvec4(r.x, r.y, -r.z, 0.0) : glm::dvec4(r.x, r.y, 0.0, r.z);
+}
+
+glm::dmat4 clipFromLight(const LayerFit& layer, bool perspective) {
+  const glm::dmat3 rows = glm::transpose(layer.clipFromPlane);
+  return glm::transpose(glm::dmat4(lightRow(rows[0], perspective), lightRow(rows[1], perspective), layer.depthRow,
+                                   lightRow(rows[2], perspective)));
+}
+
+glsl::LightFrame toShared(const AxisFrame& frame) {
+  return {.originW = glm::vec3(frame.originW),
+          .rightW = glm::vec3(frame.worldFromLight[0]),
+          .upW = glm::vec3(frame.worldFromLight[1]),
+          .backW = glm::vec3(frame.worldFromLight[2])};
+}
+
+struct Covered {
+  double depth = 0.0;  // metres from the light's plane
+  double w = 1.0;
+};
+
+// The receivers within a layer, whichever layer they were to go to: a finer layer answers for all it covers.
+std::vector<Covered> coveredReceivers(const FitInput& input, const AxisFrame& frame, const glm::dmat3& clipFromPlane) {
+  std::vector<Covered> covered;
+  for (const glm::dvec3& receiver : input.receiversW) {
+    const glm::dvec3 plane = frame.planeFromWorld(receiver);
+    const glm::dvec3 clip = clipFromPlane * glm::dvec3(plane.x, plane.y, 1.0);
+    const double most = clip.z * (1.0 + kEdgeSlack);
+    if (plane.z > 0.0 || !frame.perspective)
+      if (std::abs(clip.x) <= most && std::abs(clip.y) <= most) covered.push_back({.depth = plane.z, .w = clip.z});
+  }
+  return covered;
+}
+
+// Without a warp W is 1, and depth runs from 0 at zNear to 1 at zFar. With snapping the range is a step of a
+// series, as the texel's size is.
+void setDepthRow(LayerFit& layer, const AxisFrame& frame, double sceneScale, bool snap) {
+  // Of what the layer holds alone, so that the near end stays where it is while the layer does.
+  if (frame.perspective) layer.zNear *= 1.0 - kRangeSlack;
+  double range = layer.zFar - layer.zNear;
+  range = std::max(range * (1.0 + 2.0 * kRangeSlack), range + kLeastRange * sceneScale);
+  if (snap) range = snapLength(range);
+  if (!frame.perspective) layer.zNear -= kRangeSlack * range;
+  layer.zFar = layer.zNear + range;
+  layer.depthRow = frame.perspective ? glm::dvec4(0.0, 0.0, -layer.zFar, -layer.zFar * layer.zNear) / range
+                                     : glm::dvec4(0.0, 0.0, -1.0, -layer.zNear) / range;
+}
+
+// A warped sun's depth is (depth - zNear) / (reach W), anchored at the near end, where floats are finest:
+// what lies far from the camera, W large, has depths near 0 and keeps its digits. A warped spot's is 1 -
+// (1/depth - 1/zFar) / (reach W), anchored at the far end: anchored at the near end it would reach 1 only
+// beyond infinity where W is large.
+void setWarpedDepthRow(LayerFit& layer, const FitInput& input, const AxisFrame& frame, double sceneScale,
+                       std::span<const Covered> receivers, bool whole) {
+  const bool spot = frame.perspective;
+  if (spot)
+    layer.zFar *= 1.0 + kRangeSlack;
+  else
+    layer.zNear -= kRangeSlack * (layer.zFar - layer.zNear);
+  const double from = spot ? layer.zFar : layer.zNear;
+  double reach = 0.0;
+  if (spot || whole)
+    reach =
+        casterReach(input.scene, frame, layer.clipFromPlane, layer.zNear, from, spot ? Reach::Before : Reach::Behind);
+  for (const Covered& receiver : receivers)
+    reach = std::max(reach, std::abs(frame.linearDepth(receiver.depth) - frame.linearDepth(from)) / receiver.w);
+  reach = std::max(reach * (1.0 + kRangeSlack), kLeastRange * (spot ? 1.0 / layer.zFar : sceneScale));
+  layer.depthRow = spot ? lightRow(glm::transpose(layer.clipFromPlane)[2], true) -
+                              glm::dvec4(0.0, 0.0, 1.0 / layer.zFar, 1.0) / reach
+                        : glm::dvec4(0.0, 0.0, -1.0, -layer.zNear) / reach;
+}
+
+// From the nearest caster to the farthest receiver within the layer; but for a map that shall be whole (any
+// fit but focused), to the farthest caster.
+LayerFit fitDepth(const FitInput& input, const AxisFrame& frame, const Bounds& bounds,
+                  const glm::dmat3& clipFromPlane) {
+  const double sceneScale = std::max(static_cast<double>(bounds.diagonal()), 1e-6);
+  const double least = frame.perspective ? leastCasterDepth(bounds) : -4.0 * sceneScale;
+  const std::vector<Covered> receivers = coveredReceivers(input, frame, clipFromPlane);
+  const bool whole = input.options.fit != WindowFit::Focused || receivers.empty();
+  LayerFit layer{.clipFromPlane = clipFromPlane, .zFar = frame.perspective ? least : -4.0 * sceneScale};
+  for (const Covered& receiver : receivers) layer.zFar = std::max(layer.zFar, receiver.depth);
+  if (whole) layer.zFar = farthestCasterDepth(input.scene, frame, clipFromPlane, layer.zFar);
+  layer.zNear = nearestCasterDepth(input.scene, frame, clipFromPlane, least, layer.zFar);
+  if (input.options.warp == Warp::None)
+    setDepthRow(layer, frame, sceneScale, input.options.snap);
+  else
+    setWarpedDepthRow(layer, input, frame, sceneScale, receivers, whole);
+  return layer;
+}
+
+// Half a texel on every side keeps points on the very edge of the window inside.
+glm::dmat3 fitWindow(const FitInput& input, const AxisFrame& frame, std::span<const glm::dvec2> points,
+                     double sceneScale) {
+  Window window = windowOf(points);
+  const glm::dvec2 pad =
+      (window.upper - window.lower) * (0.5 / input.side) + 1e-6 * (frame.perspective ? 1.0 : sceneScale);
+  window = {.lower = window.lower - pad, .upper = window.upper + pad};
+  return clipFromPlane(input.options.snap ? snapWindow(window, input.side) : window);
+}
+
+FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
+  checkMapOptions(input.options);
+  const Bounds bounds = computeBounds(input.scene);
+  const double sceneScale = std::max(static_cast<double>(bounds.diagonal()), 1e-6);
+  const glm::dvec3 origin = perspective ? input.light.positionW : glm::dvec3(bounds.center());
+  const AxisFrame frame = axisFrame(origin, input.light.directionW, perspective);
+
+  FittedMap fitted;
+  std::vector<glm::dmat3> planes;
+  for (const std::vector<glm::dvec2>& points : layerPoints(input, frame, bounds, cascadeCount)) {
+    WarpedPlane warped;
+    if (input.options.warp != Warp::None) {
+      const std::vector<glm::dvec2> hull = convexHull(points);
+      warped = warpPlane(
+          input.options.warp,
+          {.frame = frame, .camera = input.camera, .points = hull, .receiversW = input.receiversW, .side = input.side});
+      fitted.note = warped.note;
+    }
+    planes.push_back(warped.warped ? warped.clipFromPlane : fitWindow(input, frame, points, sceneScale));
+  }
+  // Finest first: of the windows that hold a point the first is taken. Texels are small where the scale is
+  // large.
+  std::ranges::stable_sort(planes, std::ranges::greater(),
+                           [](const glm::dmat3& m) { return std::abs(glm::determinant(m)); });
+
+  fitted.frame = toShared(frame);
+  fitted.positional = perspective;
+  fitted.map = {};
+  fitted.map.kind = glsl::kMapPlanar;
+  fitted.map.layerCount = cascadeCount;
+  fitted.map.side = fitted.map.rows = input.side;
+  fitted.map.sceneScale = bounds.diagonal();
+  for (size_t i = 0; i < planes.size(); ++i) {
+    const LayerFit layer = fitDepth(input, frame, bounds, planes[i]);
+    if (i == 0) {
+      fitted.zNear = static_cast<float>(layer.zNear);
+      fitted.zFar = static_cast<float>(layer.zFar);
+    }
+    // The inverse is that of the rounded matrix, which is what the map is drawn with.
+    const glm::mat4 clip(clipFromLight(layer, perspective));
+    fitted.map.mapLayers[i] = {.clipFromLight = clip, .lightFromClip = glm::mat4(glm::inverse(glm::dmat4(clip)))};
+  }
+  return fitted;
+}
+
+class SpotParameterization final : public Parameterization {
+ public:
+  const char* name() const override { return "spot"; }
+  const char* sentence() const override { return "one perspective layer within a cone"; }
+  int layerCount(const MapOptions&) const override { return 1; }
+
+  Takes takes(LightType type) const override { return type == LightType::Directional ? Takes::No : Takes::Yes; }
+
+  LightModel lightModel(const Light& light, const glm::dvec3& aimW) const override {
+    return {.type = LightType::Spot,
+            .positionW = glm::dvec3(light.positionW),
+            .directionW = light.type == LightType::Spot ? glm::normalize(glm::dvec3(light.directionW)) : aimW,
+            .outerConeRad = static_cast<double>(light.outerConeRad)};
+  }
+
+  FittedMap fit(const FitInput& input) const override { return fitPlanar(input, true, 1); }
+};
+
+class DirectionalParameterization final : public Parameterization {
+ public:
+  const char* name() const override { return "directional"; }
+  const char* sentence() const override {
+    return "one orthographic layer; a positional light becomes a sun from its side";
+  }
+  int layerCount(const MapOptions& options) const override { return options.cascades; }
+
+  Takes takes(LightType type) const override {
+    return type == LightType::Directional ? Takes::Yes : Takes::IfNothingElse;
+  }
+
+  LightModel lightModel(const Light& light, const glm::dvec3& aimW) const override {
+    return {.type = LightType::Directional,
+            .directionW = light.type == LightType::Point ? aimW : glm::normalize(glm::dvec3(light.directionW))};
+  }
+
+  FittedMap fit(const FitInput& input) const override { return fitPlanar(input, false, input.options.cascades); }
+};
+
+}  // namespace
+
+const Parameterization& spotParameterization() {
+  static const SpotParameterization spot;
+  return spot;
+}
+
+const Parameterization& directionalParameterization() {
+  static const DirectionalParameterization directional;
+  return directional;
+}
+
+const std::vector<const Parameterization*>& planarParameterizations() {
+  static const std::vector<const Parameterization*> both = {&spotParameterization(), &directionalParameterization()};
+  return both;
+}
+
+}  // namespace gnomon
