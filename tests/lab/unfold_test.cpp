@@ -67,6 +67,20 @@ TEST(Unfold, SolidAnglesOfACubeAreTheSphere) {
   EXPECT_NEAR(angles.largest / angles.smallest, 3.0 * std::sqrt(3.0), 0.15);
 }
 
+// What lets computeSolidAngles look at three faces of six: to the bit, and with one sign an axis for all of a face.
+TEST(Unfold, OppositeFacesDifferBySignsAlone) {
+  constexpr int kSide = 37;
+  const FittedMap fitted = cube(kSide);
+  for (int layer = 0; layer < 6; layer += 2) {
+    const auto rayDir = [&](int face, int x, int y) {
+      return glsl::mapTexelRay(fitted.map, face, glm::vec2(x, y) / static_cast<float>(kSide)).dir;
+    };
+    const glm::vec3 signs = glm::sign(rayDir(layer, 0, 0)) * glm::sign(rayDir(layer + 1, 0, 0));
+    for (int y = 0; y <= kSide; ++y)
+      for (int x = 0; x <= kSide; ++x) ASSERT_EQ(rayDir(layer + 1, x, y), signs * rayDir(layer, x, y));
+  }
+}
+
 TEST(Unfold, SolidAnglesOfAParaboloidAreTheSphereAndItsRim) {
   const FittedMap fitted =
       makeParaboloidMap(glm::dvec3(0.0), {0, -1, 0}, ParaboloidRaster::Exact, 0.1, 10.0, 256, 10.0f);
