@@ -1,7 +1,9 @@
 #include "base/image.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/image_codec.h"
+#include "base/image_png.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +12,7 @@
 namespace gnomon {
 
 void writePng(const std::filesystem::path& path, const Image8& image) {
-  imageCodec().writePng(path, image);
+  writeTextFile(path, encodePng(image));
 }
 
 void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames) {

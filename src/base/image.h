@@ -1,5 +1,5 @@
 #pragma once
-// Image files through OpenImageIO: EXR for data (32-bit float, linear), PNG for people (8-bit).
+// Image files: EXR for data (32-bit float, linear), PNG for people (8-bit). All but writing PNG goes through OpenImageIO.
 // Rows run from the top down, channels are interleaved.
 
 #include <cstdint>
@@ -46,7 +46,7 @@ Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what);
 // A JPEG file in memory, of 1 or 3 channels; `quality` 1..100. Throws WorldError.
 std::string encodeJpeg(const Image8& image, int quality);
 
-// Begins on another thread to load what the functions above need (base/image_codec.h): for whom pictures are
+// Begins on another thread to load what the functions above but writePng need (base/image_codec.h): for whom pictures are
 // the last thing to come. Without it the first of them waits.
 void preloadImages();
 

@@ -1,7 +1,7 @@
 #pragma once
 // What image.h leaves to OpenImageIO, in a library of its own that is loaded when the first image is read or
-// written: Debian's OpenImageIO brings 250 others with it, and loading them takes as long as a small picture
-// takes to render (0.2 s). For image.cpp only.
+// written that is no PNG to be written (image_png.h): Debian's OpenImageIO brings 250 others with it, and loading them
+// takes as long as a small picture takes to render (0.2 s). For image.cpp only.
 
 #include "base/image.h"
 
@@ -9,7 +9,6 @@ namespace gnomon {
 
 // As the functions of these names in image.h.
 struct ImageCodec {
-  void (*writePng)(const std::filesystem::path& path, const Image8& image);
   void (*writeExr)(const std::filesystem::path& path, const ImageF& image,
                    const std::vector<std::string>& channelNames);
   ImageF (*readImage)(const std::filesystem::path& path);
