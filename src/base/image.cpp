@@ -5,6 +5,8 @@
 #include "base/image_codec.h"
 #include "base/image_png.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -56,10 +58,10 @@ float linearFromSrgb(float srgb) {
 
 Image8 toSrgb8(const ImageF& linear) {
   Image8 out(linear.width, linear.height, linear.channels);
-  for (size_t i = 0; i < out.values.size(); ++i) {
+  tbb::parallel_for(size_t{0}, out.values.size(), [&](size_t i) {
     const float value = srgbFromLinear(std::clamp(linear.values[i], 0.0f, 1.0f));
     out.values[i] = static_cast<uint8_t>(std::lround(255.0f * value));
-  }
+  });
   return out;
 }
 
