@@ -33,7 +33,7 @@ CompareOptions optionsFor(const CompareOptions& options, const Parameterization&
 std::string mapSizeText(const FittedMap& fitted);
 
 // How good a tuned value is where it was not tuned.
-struct Elsewhere {
+struct Transfer {
   double biasError = 0.0;      // with the tuned value
   double bestBiasError = 0.0;  // with the value tuned there
   double bestValue = 0.0;
@@ -44,9 +44,9 @@ struct Tuning {
   double value = 0.0;
   std::string unit;
   int evaluations = 0;
-  std::optional<Elsewhere> otherCamera;
+  std::optional<Transfer> otherCamera;
   std::string otherCameraName;
-  std::optional<Elsewhere> otherMapSize;
+  std::optional<Transfer> otherMapSize;
   int otherMapSide = 0;  // texels
 };
 
@@ -68,7 +68,7 @@ struct Row {
   std::string epsilonAt;  // empty where the method has none
   std::string filter = "none";
   size_t scored = 0, agree = 0, acne = 0, leak = 0, edgeShadow = 0, edgeLight = 0, uncovered = 0;
-  size_t grazing = 0, edgeOn = 0;       // as in Judged
+  size_t grazing = 0, edgeOn = 0;       // as in LabelledResult
   double buildMs = 0.0, shadeMs = 0.0;  // medians, wall clock
   double biasError() const { return static_cast<double>(acne + leak) / static_cast<double>(scored); }
   // Of the visibility against the truth through the same filter, over the scored pixels. A pixel that the map

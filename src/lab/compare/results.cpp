@@ -64,12 +64,12 @@ Json toJson(const std::optional<WorstPlace>& place) {
   return {{"x", place->x}, {"y", place->y}, {"size", place->size}, {"pixels", place->pixels}};
 }
 
-Json toJson(const std::optional<Elsewhere>& elsewhere, const char* key, const Json& where) {
-  if (!elsewhere) return nullptr;
+Json toJson(const std::optional<Transfer>& transfer, const char* key, const Json& where) {
+  if (!transfer) return nullptr;
   return {{key, where},
-          {"bias_error", elsewhere->biasError},
-          {"best_bias_error", elsewhere->bestBiasError},
-          {"best_value", shortest(static_cast<float>(elsewhere->bestValue))}};
+          {"bias_error", transfer->biasError},
+          {"best_bias_error", transfer->bestBiasError},
+          {"best_value", shortest(static_cast<float>(transfer->bestValue))}};
 }
 
 Json toJson(const std::optional<Tuning>& tuning) {
