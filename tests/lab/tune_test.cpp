@@ -80,11 +80,12 @@ TEST_F(TuneTest, RobustnessIsNeverBetterThanTheBestThere) {
   const Tuning tuning = robustness.judge(tuned);
   EXPECT_STREQ(tuning.knob.c_str(), "offset");
   ASSERT_TRUE(tuning.otherCamera && tuning.otherMapSize);
-  for (const Elsewhere* elsewhere : {&*tuning.otherCamera, &*tuning.otherMapSize}) {
+  for (const Transfer* elsewhere :
+       {static_cast<const Transfer*>(&*tuning.otherCamera), static_cast<const Transfer*>(&*tuning.otherMapSize)}) {
     EXPECT_GE(elsewhere->biasError, elsewhere->bestBiasError);
     EXPECT_GT(elsewhere->bestValue, 0.0);
   }
-  EXPECT_EQ(tuning.otherMapSide, 32);
+  EXPECT_EQ(tuning.otherMapSize->mapSize, 32);
   // A constant tuned for small texels is too small for large ones.
   EXPECT_GT(tuning.otherMapSize->biasError, tuning.otherMapSize->bestBiasError);
 }

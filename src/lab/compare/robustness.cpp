@@ -79,23 +79,23 @@ Robustness::Robustness(const Session& session, const Exact& exact, const Compare
 
 Robustness::~Robustness() = default;
 
-Elsewhere Robustness::judgeAt(Place& place, const TunedMethod& tuned) {
-  Elsewhere elsewhere;
+Transfer Robustness::judgeAt(Place& place, const TunedMethod& tuned) {
+  Transfer transfer;
   const double scored = place.trial->scored();
   const size_t errors = place.trial->biasErrors(tuned.method);
   const TunedMethod best = tune(*place.trial, tuned.method);
-  elsewhere.biasError = static_cast<double>(errors) / scored;
-  elsewhere.bestBiasError = static_cast<double>(std::min(best.biasErrors, errors)) / scored;
+  transfer.biasError = static_cast<double>(errors) / scored;
+  transfer.bestBiasError = static_cast<double>(std::min(best.biasErrors, errors)) / scored;
   const BiasKnob& knob = knobsOf(*tuned.method.bias).front();
-  elsewhere.bestValue = static_cast<double>((best.biasErrors <= errors ? best : tuned).method.params.*knob.field);
-  return elsewhere;
+  transfer.bestValue = (best.biasErrors <= errors ? best : tuned).method.params.*knob.field;
+  return transfer;
 }
 
 Tuning tuningOf(const TunedMethod& tuned) {
   const BiasKnob& knob = knobsOf(*tuned.method.bias).front();
   Tuning tuning;
   tuning.knob = knob.name;
-  tuning.value = static_cast<double>(tuned.method.params.*knob.field);
+  tuning.value = tuned.method.params.*knob.field;
   tuning.unit = unitName(knob.unit);
   tuning.evaluations = tuned.evaluations;
   return tuning;
@@ -103,10 +103,8 @@ Tuning tuningOf(const TunedMethod& tuned) {
 
 Tuning Robustness::judge(const TunedMethod& tuned) {
   Tuning tuning = tuningOf(tuned);
-  if (otherCamera_) tuning.otherCamera = judgeAt(*otherCamera_, tuned);
-  tuning.otherCameraName = otherSession_->camera().name;
-  tuning.otherMapSize = judgeAt(*otherMapSize_, tuned);
-  tuning.otherMapSide = otherMapSize_->maps->fitted().map.side;
+  if (otherCamera_) tuning.otherCamera = {judgeAt(*otherCamera_, tuned), otherSession_->camera().name};
+  tuning.otherMapSize = {judgeAt(*otherMapSize_, tuned), otherMapSize_->maps->fitted().map.side};
   return tuning;
 }
 

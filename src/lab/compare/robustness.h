@@ -27,7 +27,7 @@ class Robustness {
 
  private:
   struct Place;
-  Elsewhere judgeAt(Place& place, const TunedMethod& tuned);
+  Transfer judgeAt(Place& place, const TunedMethod& tuned);
 
   std::unique_ptr<Session> otherSession_;
   std::unique_ptr<Place> otherCamera_, otherMapSize_;

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace gnomon {
 
 namespace {
@@ -127,11 +125,6 @@ std::vector<FogMethodResult> runFogMethods(const Session& session, const Rendere
     timeMethods(session, pass, maps, view.sources[l], heterogeneous, options, results);
   }
   return results;
-}
-
-std::string mediaMethodName(const MediaMethod& method) {
-  const std::string name = integratorName(method.integrator);
-  return method.steps > 0 ? fmt::format("{} {}", name, method.steps) : name;
 }
 
 }  // namespace gnomon
