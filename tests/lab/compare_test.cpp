@@ -40,7 +40,7 @@ Outcome run(const std::string& scene, const std::string& maps) {
   options.outDir = folder.path();
   Outcome outcome;
   outcome.comparison = compare(session, options);
-  outcome.json = Json::parse(resultsJson(session, setup, outcome.comparison, "gnomon compare"));
+  outcome.json = Json::parse(resultsJson(session, outcome.comparison, "gnomon compare"));
   outcome.table = comparisonTable(outcome.comparison);
   for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
     if (entry.is_regular_file())
@@ -166,7 +166,7 @@ TEST(ResultsJson, SaysOfAPointLightsMapWhatIsNotDefault) {
   options.repeats = 1;
   const auto paramsOf = [&](const MapOptions& mapOptions) {
     options.mapOptions = mapOptions;
-    const Json rows = Json::parse(resultsJson(session, setup, compare(session, options), "gnomon compare")).at("rows");
+    const Json rows = Json::parse(resultsJson(session, compare(session, options), "gnomon compare")).at("rows");
     return std::pair(rows[0].at("params"), rows[1].at("params"));
   };
   const auto [cube, paraboloid] = paramsOf({.cubeDepth = CubeDepth::Radial,

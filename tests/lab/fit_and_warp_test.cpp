@@ -54,7 +54,7 @@ TEST(FitAndWarp, AResultSaysHowItsMapWasFitted) {
   options.repeats = 1;
   const auto rowOf = [&](const MapOptions& mapOptions) {
     options.mapOptions = mapOptions;
-    return Json::parse(resultsJson(session, setup, compare(session, options), "gnomon compare")).at("rows")[0];
+    return Json::parse(resultsJson(session, compare(session, options), "gnomon compare")).at("rows")[0];
   };
   const Json warped = rowOf({.fit = WindowFit::Tight, .warp = Warp::Lispsm});
   EXPECT_EQ(warped.at("params").at("fit"), "tight");

@@ -6,19 +6,18 @@
 namespace gnomon {
 namespace {
 
-ReportRow rowOf(const std::string& bias) {
-  ReportRow row;
-  row.map = row.mapName = "spot";
+Row rowOf(const std::string& bias) {
+  Row row;
+  row.map = "spot";
   row.bias = bias;
   row.filter = "none";
-  row.mapSize = 512;
+  row.mapSide = 512;
   return row;
 }
 
 TEST(RowCommand, KeepsTheSceneAndDropsOtherMethodsAndOutputs) {
-  ReportRow row = rowOf("slope");
-  row.params = {
-      {"factor", "2.5", true}, {"offset", "0.001", true}, {"map_content", "one layer", false}, {"cull", "none", false}};
+  Row row = rowOf("slope");
+  row.params = {{"factor", 2.5}, {"offset", 0.001}, {"map_content", "one layer"}, {"cull", "none"}};
   EXPECT_EQ(rowCommand("gnomon compare 'my scene.glb' --light 1,2,3 --biases all --maps=spot,directional --tune -o "
                        "/tmp/out --json r.json --fail-if 'acne>0.1%' --constant-offset 0.5 --map-texels 9999 --size 64 "
                        "--quiet",
@@ -28,9 +27,9 @@ TEST(RowCommand, KeepsTheSceneAndDropsOtherMethodsAndOutputs) {
 }
 
 TEST(RowCommand, TheAdaptiveMethodsShareAKnobAndAFilterIsNamed) {
-  ReportRow row = rowOf("adaptive-ehm");
+  Row row = rowOf("adaptive-ehm");
   row.filter = "bilinear";
-  row.params = {{"k", "0.0002", true}, {"epsilon_at", "stored", false}};
+  row.params = {{"k", 0.0002}, {"epsilon_at", "stored"}};
   EXPECT_EQ(rowCommand("gnomon compare atrium -o/tmp/x", row),
             "gnomon compare atrium --maps spot --biases adaptive-ehm --filters bilinear --map-size 512 "
             "--adaptive-k "
@@ -38,8 +37,8 @@ TEST(RowCommand, TheAdaptiveMethodsShareAKnobAndAFilterIsNamed) {
 }
 
 TEST(RowCommand, AUsersBiasHasNoKnobFlag) {
-  ReportRow row = rowOf("my bias;rm");
-  row.params = {{"offset", "1", true}};
+  Row row = rowOf("my bias;rm");
+  row.params = {{"offset", 1.0}};
   EXPECT_EQ(rowCommand("gnomon compare atrium --bias-file 'a b.glsl'", row),
             "gnomon compare atrium --bias-file 'a b.glsl' --maps spot --biases 'my bias;rm' --map-size 512");
 }

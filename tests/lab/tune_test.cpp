@@ -76,11 +76,12 @@ TEST_F(TuneTest, RobustnessIsNeverBetterThanTheBestThere) {
   const Tuning tuning = robustness.judge(tuned);
   EXPECT_STREQ(tuning.knob.c_str(), "offset");
   ASSERT_TRUE(tuning.otherCamera && tuning.otherMapSize);
-  for (const Transfer* transfer : {&*tuning.otherCamera, &*tuning.otherMapSize}) {
+  for (const Transfer* transfer :
+       {static_cast<const Transfer*>(&*tuning.otherCamera), static_cast<const Transfer*>(&*tuning.otherMapSize)}) {
     EXPECT_GE(transfer->biasError, transfer->bestBiasError);
     EXPECT_GT(transfer->bestValue, 0.0);
   }
-  EXPECT_EQ(tuning.otherMapSide, 32);
+  EXPECT_EQ(tuning.otherMapSize->mapSize, 32);
   // A constant tuned for small texels is too small for large ones.
   EXPECT_GT(tuning.otherMapSize->biasError, tuning.otherMapSize->bestBiasError);
 }

@@ -7,8 +7,10 @@
 #include "lab/compare/tune.h"
 #include "lab/core/depth_images.h"
 #include "lab/core/map_params.h"
+#include "lab/core/results_head.h"
 #include "lab/picture/flip.h"
 #include "lab/picture/pictures.h"
+#include "lab/picture/unfold.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,15 +25,14 @@ namespace {
 
 TruthSummary summarize(const Parameterization& map, const GroundTruth& exact) {
   return {.map = map.name(),
-          .lightName = exact.source.name,
-          .light = exact.light,
+          .light = lightFacts(exact.source.name, exact.light),
           .scored = exact.receivers.scored,
+          .lit = exact.truth.litCount,
           .facingAway = exact.receivers.facingAway,
           .outsideCone = exact.receivers.outsideCone,
-          .lit = exact.truth.litCount,
+          .margin = exact.truth.margin,
           .marginFlipsHalf = exact.truth.marginFlipsHalf,
           .marginFlipsDouble = exact.truth.marginFlipsDouble,
-          .margin = exact.truth.margin,
           .receiversAndTraceMs = exact.ms};
 }
 
@@ -42,16 +43,28 @@ struct Entry {
   size_t row = 0;  // the first of its rows, one a filter
 };
 
+// Knobs, then what the map holds and how it is drawn and fitted.
+Params paramsOf(const Method& method, const FittedMap& fitted, const MapChoice& choice) {
+  const BiasMethod& bias = *method.bias;
+  const MapOptions& map = choice.mapOptions;
+  Params params;
+  for (const BiasKnob& knob : knobsOf(bias)) params.push_back({knob.name, shortest(method.params.*knob.field)});
+  if (bias.hasEpsilon) params.push_back({"epsilon_at", epsilonAtName(method.params.epsilonAt)});
+  params.push_back({"map_content", contentName(bias.content)});
+  params.push_back({"cull", cullModeName(choice.cull)});
+  params.push_back({"fit", windowFitName(map.fit)});
+  params.push_back({"snap", snaps(map) ? "on" : "off"});
+  params.push_back({"warp", warpName(map.warp)});
+  params.push_back({"cascades", int64_t{map.cascades}});  // as asked for: a spot has one all the same
+  for (const auto& [name, value] : mapParams(fitted, map)) params.push_back({name, value});
+  return params;
+}
+
 void describe(Row& row, const Entry& entry, const LabelledResult& judged) {
   const BiasMethod& bias = *entry.method.bias;
   row.bias = bias.name;
   row.tuning = entry.tuning;
-  for (const BiasKnob& knob : knobsOf(bias)) {
-    row.knobs.emplace_back(knob.name, static_cast<double>(entry.method.params.*knob.field));
-    row.knobUnits.emplace_back(unitName(knob.unit));
-  }
-  row.content = contentName(bias.content);
-  if (bias.hasEpsilon) row.epsilonAt = epsilonAtName(entry.method.params.epsilonAt);
+  for (const BiasKnob& knob : knobsOf(bias)) row.units.emplace_back(knob.name, unitName(knob.unit));
   const LabelImage& labels = judged.labels;
   row.agree = labels.count(Label::Agree);
   row.acne = labels.count(Label::Acne);
@@ -154,12 +167,10 @@ class MapComparison {
       row.map = parameterization_.name();
       row.light = lit_.source().name;
       row.mapSide = fitted.map.side;
-      row.mapRows = fitted.map.rows;
-      row.mapSize = mapSizeText(fitted);
-      row.mapParams = mapParams(fitted, options_.mapOptions);
       row.layers = fitted.map.layerCount;
-      row.cull = cullModeName(options_.cull);
-      row.mapOptions = options_.mapOptions;
+      row.mapTexels = size_t{1} * fitted.map.side * fitted.map.rows * fitted.map.layerCount;
+      row.mapDimensions = mapSizeText(fitted);
+      row.params = paramsOf(entry.method, fitted, options_);
       row.filter = filter->name;
       describe(row, entry, judged);
       row.rmse = rmseOf(lit_.receivers(), visibility, truth.visibility);
@@ -182,8 +193,8 @@ class MapComparison {
     RowPictureNames names;
     names.labelStem = fmt::format("{}/{}{}", folder_, row.bias, row.tuning ? ".tuned" : "");
     names.stem = names.labelStem + (row.filter == "none" ? "" : "." + row.filter);
-    names.title =
-        fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "", row.mapSide, row.mapRows);
+    names.title = fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "", row.mapSide,
+                              maps_->fitted().map.rows);
     names.writesLabels = row.filter == options_.filters.front()->name;
     return names;
   }
@@ -223,8 +234,9 @@ class MapComparison {
                        .rows = fitted.map.rows,
                        .layers = fitted.map.layerCount,
                        .zNear = fitted.zNear,
-                       .zFar = fitted.zFar,
-                       .solidAngles = computeSolidAngles(fitted)};
+                       .zFar = fitted.zFar};
+    if (const std::optional<SolidAngles> angles = computeSolidAngles(fitted))
+      summary.solidAngles = {.smallest = angles->smallest, .largest = angles->largest};
     if (options_.outDir.empty()) return summary;
     const bool two =
         std::ranges::any_of(options_.biases, [](const BiasMethod* b) { return b->content == MapContent::TwoLayers; });
@@ -266,7 +278,10 @@ void addSums(Comparison& comparison) {
       sum.pictures.clear();
       sum.worstAcne = sum.worstLeak = std::nullopt;
       sum.flip = std::nullopt;
-      if (sum.tuning) sum.knobs = {}, sum.knobUnits = {};  // each light has its own
+      if (sum.tuning) {  // each light has its own
+        std::erase_if(sum.params, [&](const Param& param) { return sum.isKnob(param); });
+        sum.units.clear();
+      }
       continue;
     }
     const double squares = found->rmse * found->rmse * static_cast<double>(found->scored) +
@@ -331,6 +346,7 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   }
   if (comparison.rows.empty()) openLight(session, passes, *options.maps.front(), {});  // says why
   if (severalLights) addSums(comparison);
+  for (Row& row : comparison.rows) row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
   return comparison;
 }
 

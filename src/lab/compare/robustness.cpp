@@ -76,7 +76,7 @@ Transfer Robustness::judgeAt(Place& place, const TunedMethod& tuned) {
   transfer.biasError = static_cast<double>(errors) / scored;
   transfer.bestBiasError = static_cast<double>(std::min(best.biasErrors, errors)) / scored;
   const BiasKnob& knob = knobsOf(*tuned.method.bias).front();
-  transfer.bestValue = static_cast<double>((best.biasErrors <= errors ? best : tuned).method.params.*knob.field);
+  transfer.bestValue = (best.biasErrors <= errors ? best : tuned).method.params.*knob.field;
   return transfer;
 }
 
@@ -84,7 +84,7 @@ Tuning tuningOf(const TunedMethod& tuned) {
   const BiasKnob& knob = knobsOf(*tuned.method.bias).front();
   Tuning tuning;
   tuning.knob = knob.name;
-  tuning.value = static_cast<double>(tuned.method.params.*knob.field);
+  tuning.value = tuned.method.params.*knob.field;
   tuning.unit = unitName(knob.unit);
   tuning.evaluations = tuned.evaluations;
   return tuning;
@@ -92,10 +92,8 @@ Tuning tuningOf(const TunedMethod& tuned) {
 
 Tuning Robustness::judge(const TunedMethod& tuned) {
   Tuning tuning = tuningOf(tuned);
-  if (otherCamera_) tuning.otherCamera = judgeAt(*otherCamera_, tuned);
-  tuning.otherCameraName = otherView_.camera().name;
-  tuning.otherMapSize = judgeAt(*otherMapSize_, tuned);
-  tuning.otherMapSide = otherMapSize_->lit.fitted().map.side;
+  if (otherCamera_) tuning.otherCamera = {judgeAt(*otherCamera_, tuned), otherView_.camera().name};
+  tuning.otherMapSize = {judgeAt(*otherMapSize_, tuned), otherMapSize_->lit.fitted().map.side};
   return tuning;
 }
 

@@ -1,8 +1,8 @@
 #include "lab/compare/row_pictures.h"
 
 #include "lab/core/depth_images.h"
-
 #include "lab/picture/pictures.h"
+#include "lab/picture/unfold.h"
 
 #include <algorithm>
 
@@ -84,7 +84,7 @@ std::optional<WorstPlace> findWorstPlace(const LabelImage& labels, int width, in
       sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + sums[(y + 1) * stride + x] - sums[y * stride + x] +
                                        (labels.labels[y * (stride - 1) + x] == label ? 1 : 0);
   const int size = std::min({kWorstSide, width, height});
-  WorstPlace worst{.size = size};
+  WorstPlace worst{.size = size, .pixels = 0};
   for (int y = 0; y + size <= height; ++y) {
     for (int x = 0; x + size <= width; ++x) {
       const auto at = [&](int column, int row) { return sums[static_cast<size_t>(row) * stride + column]; };

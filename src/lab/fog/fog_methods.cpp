@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace gnomon {
 
 namespace {
@@ -104,11 +102,6 @@ std::vector<FogMethodResult> runFogMethods(const SceneView& scene, ShadowPasses&
     timeMethods(scene, pass, maps, view.sources[l], heterogeneous, options, results);
   }
   return results;
-}
-
-std::string mediaMethodName(const MediaMethod& method) {
-  const std::string name = integratorName(method.integrator);
-  return method.steps > 0 ? fmt::format("{} {}", name, method.steps) : name;
 }
 
 }  // namespace gnomon

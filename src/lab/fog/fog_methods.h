@@ -29,7 +29,4 @@ struct FogMethodResult {
 std::vector<FogMethodResult> runFogMethods(const SceneView& scene, ShadowPasses& passes, const FogView& view,
                                            const FogMethodOptions& options);
 
-// "runs", "march 128".
-std::string mediaMethodName(const MediaMethod& method);
-
 }  // namespace gnomon

@@ -60,8 +60,8 @@ bool writeVideo(const fs::path& ffmpeg, const fs::path& frames, const fs::path& 
   return made && !failure;
 }
 
-std::string stemOf(const MediaMethod& method) {
-  std::string stem = mediaMethodName(method);
+std::string stemOf(const MediaRow& row) {
+  std::string stem = row.name();
   std::ranges::replace(stem, ' ', '_');
   return stem;
 }
@@ -117,13 +117,13 @@ FogMotion parseMotion(const std::string& text, int frames) {
 
 void runMotion(const SceneView& scene, ShadowPasses& passes, const FogOptions& options, FogResult& result) {
   const FogMotion& motion = *options.motion;
-  FogMethodOptions how{
-      .marchMap = options.marchMap, .map = options.map, .mapSide = options.mapSide, .cull = options.cull};
+  FogMethodOptions how{.methods = result.methods,
+                       .marchMap = options.marchMap,
+                       .map = options.map,
+                       .mapSide = options.mapSide,
+                       .cull = options.cull};
   std::vector<std::string> stems;
-  for (const MediaRow& row : result.rows) {
-    how.methods.push_back(row.method);
-    stems.push_back(stemOf(row.method));
-  }
+  for (const MediaRow& row : result.rows) stems.push_back(stemOf(row));
   if (options.truth) stems.emplace_back("reference");
   std::vector<ImageF> before(stems.size());
   std::vector<double> beyond(result.rows.size(), 0.0);

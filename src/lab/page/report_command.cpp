@@ -79,7 +79,7 @@ std::string keptPart(const std::string& command, bool dropsLight) {
 }
 
 // The three adaptive methods share the first one's knob.
-std::string knobFlag(const ReportRow& row, const std::string& knob) {
+std::string knobFlag(const Row& row, const std::string& knob) {
   const BiasMethod* method = methodNamed(row.bias);
   const bool shared = method != nullptr && method->hasEpsilon && method->knobs.empty();
   return fmt::format("--{}-{}", shared ? "adaptive" : row.bias, knob);
@@ -87,20 +87,20 @@ std::string knobFlag(const ReportRow& row, const std::string& knob) {
 
 }  // namespace
 
-std::string rowCommand(const std::string& command, const ReportRow& row) {
+std::string rowCommand(const std::string& command, const Row& row) {
   if (!command.starts_with("gnomon compare ")) return command;
-  std::string line = keptPart(command, !row.light.empty()) +
-                     fmt::format(" --maps {} --biases {}", quoted(row.mapName), quoted(row.bias));
+  std::string line =
+      keptPart(command, !row.light.empty()) + fmt::format(" --maps {} --biases {}", quoted(row.map), quoted(row.bias));
   if (!row.light.empty()) line += " --light " + quoted(row.light);
   if (row.filter != "none") line += " --filters " + quoted(row.filter);
-  line += fmt::format(" --map-size {}", row.mapSize);
-  for (const ReportParam& param : row.params) {
-    if (param.isKnob && isKnobFlag(knobFlag(row, param.name)))
-      line += fmt::format(" {} {}", knobFlag(row, param.name), param.text);
+  line += fmt::format(" --map-size {}", row.mapSide);
+  for (const Param& param : row.params) {
+    if (row.isKnob(param) && isKnobFlag(knobFlag(row, param.name)))
+      line += fmt::format(" {} {}", knobFlag(row, param.name), paramText(param));
     else if (param.name == "cull")
-      line += " --cull " + quoted(param.text);
+      line += " --cull " + quoted(paramText(param));
     else if (param.name == "epsilon_at")
-      line += " --epsilon-at " + quoted(param.text);
+      line += " --epsilon-at " + quoted(paramText(param));
   }
   return line;
 }

@@ -159,12 +159,12 @@ Comparison FigureRun::compare(const std::string& name, const CompareOptions& ask
   if (!run_.options().outDir.empty()) options.outDir = run_.options().outDir / below_;
   Comparison comparison = gnomon::compare(session, options);
   command_ = compareCommand(session, options);
-  run_.addComparison(below_, resultsJson(session, session.setup(), comparison, command_));
+  run_.addComparison(below_, resultsJson(session, comparison, command_));
   const TruthSummary& truth = comparison.truths.front();
   const Row& row = comparison.rows.front();
   std::string text = fmt::format("{}, light '{}', camera '{}', {} × {} pixels; {} map, {} {}", session.scene().name,
-                                 truth.lightName, session.camera().name, session.view().width, session.view().height,
-                                 row.map, row.mapSize, row.map == "vsv" ? "voxels" : "texels a side");
+                                 truth.light.name, session.camera().name, session.view().width, session.view().height,
+                                 row.map, row.mapDimensions, row.map == "vsv" ? "voxels" : "texels a side");
   if (figure().setup.find(text) == std::string::npos) figure().setup += (figure().setup.empty() ? "" : "; ") + text;
   return comparison;
 }
