@@ -3,8 +3,8 @@
 // layers. Its mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in
 // shaders/shared/map.glsl, and a FittedMap carries the numbers those functions read.
 //
-// spot and directional are here, cube and paraboloid in omni/, the shadow volume in vsv/; lab/core/maps.h has the
-// list of all.
+// spot and directional are in planar/, cube and paraboloid in omni/, the shadow volume in vsv/; lab/core/maps.h has
+// the list of all.
 
 #include "scene/light_model.h"
 #include "scene/scene_buffers.h"
