@@ -25,12 +25,12 @@ void run(const char* sceneName, const char* path) {
 
   // A bias says what it reads of a map: this one a single layer of depth.
   const BiasMethod& bias = findBias("adaptive");
-  MapImage map(*device, cubeParameterization().fit(lit.fitInput(kMapSide)), bias.content);
+  MapImage map(*device, cubeParameterization().fit(lit.fitInput(kMapSide)), bias.channels);
   const MapRenderer renderer(*device);
 
   gpu::Commands commands(*device, "frame");
   renderer.record(commands, lit.buffers(), map, lit.light(), CullMode::Solids);
-  lit.record(commands, map, bias, glsl::kFilterBilinear);
+  lit.record(commands, map, bias, glsl::kShadowFilterBilinear);
   commands.submitAndWait();
 
   writePng(path, toSrgb8(lit.picture()));

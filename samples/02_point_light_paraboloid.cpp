@@ -23,14 +23,14 @@ void run(const char* sceneName, const char* path) {
   const auto device = gpu::Device::create({});
   LitScene lit(*device, scene, kSide, kSide);
 
-  // bias.content: the map holds both layers of depth.
+  // bias.channels: the map holds both layers of depth.
   const BiasMethod& bias = findBias("dual");
-  MapImage map(*device, paraboloidParameterization().fit(lit.fitInput(kMapSide)), bias.content);
+  MapImage map(*device, paraboloidParameterization().fit(lit.fitInput(kMapSide)), bias.channels);
   const MapRenderer renderer(*device);
 
   gpu::Commands commands(*device, "frame");
   renderer.record(commands, lit.buffers(), map, lit.light(), CullMode::Solids);
-  lit.record(commands, map, bias, glsl::kFilterBilinear);
+  lit.record(commands, map, bias, glsl::kShadowFilterBilinear);
   commands.submitAndWait();
 
   writePng(path, toSrgb8(lit.picture()));

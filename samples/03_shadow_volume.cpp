@@ -33,8 +33,10 @@ void run(const char* sceneName, const char* path) {
 
   gpu::Commands commands(*device, "frame");
   volumes.record(commands, maps, lit.buffers(), volume, lit.light(), CullMode::Solids);
-  lit.record(commands, [&](VisibilityPass& into, const GBuffer& seen) {
-    lookUp.record(commands, lit.buffers(), seen, volume, into, findBias("adaptive"), false);
+  const BiasMethod& bias = findBias("adaptive");
+  const glsl::BiasParams params = defaultBiasParams(bias, computeBounds(scene).diagonal());
+  lit.record(commands, params, [&](VisibilityPass& into, const GBuffer& seen) {
+    lookUp.record(commands, lit.buffers(), seen, volume, into, bias, false);
   });
   commands.submitAndWait();
 

@@ -49,7 +49,8 @@ void run(const char* sceneName, const char* path) {
   VisibilityPass visibility(*device, kSide, kSide);
   VolumeVisibility lookUp(*device);
   MediaPass media(*device, kSide, kSide);
-  glsl::ShadeUniforms shade = shadeUniforms(camera, light, defaultBiasParams(fitted.columns.map.sceneScale));
+  const BiasMethod& bias = findBias("adaptive");
+  glsl::ShadeUniforms shade = shadeUniforms(camera, light, defaultBiasParams(bias, fitted.columns.map.sceneScale));
   shade.lightColor = lamp.intensity / glsl::kPi;
   visibility.setUniforms(shade);
   media.setMedium(camera, fog);
@@ -57,7 +58,7 @@ void run(const char* sceneName, const char* path) {
   gpu::Commands commands(*device, "frame");
   volumes.record(commands, maps, buffers, volume, light, CullMode::Solids);
   media.recordTable(commands, volume, lamp);
-  lookUp.record(commands, buffers, gbuffer, volume, visibility, findBias("adaptive"), false);
+  lookUp.record(commands, buffers, gbuffer, volume, visibility, bias, false);
   commands.barrier("visibility and the running integral are written -> surfaces and view rays read them");
   media.recordSurfaces(commands, buffers, gbuffer, lamp, visibility.uniforms(), visibility.visibility(), false);
   media.record(commands, buffers, gbuffer, volume, lamp, {.integrator = Integrator::Runs}, false);

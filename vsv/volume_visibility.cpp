@@ -7,7 +7,7 @@
 namespace gnomon {
 
 bool volumeAnswers(const BiasMethod& method) {
-  return method.id == glsl::kBiasNone || method.id == glsl::kBiasConstant || method.id == glsl::kBiasAdaptive;
+  return method.onVolumes;
 }
 
 void VolumeVisibility::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,

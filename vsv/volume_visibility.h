@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-// Whether a bias means anything on bits: none, constant and adaptive do (shaders/shared/volume_lookup.glsl).
+// Whether a bias means anything on bits: its row says so, and shaders/shared/volume_lookup.glsl what.
 bool volumeAnswers(const BiasMethod& method);
 
 class VolumeVisibility {

@@ -1,14 +1,15 @@
-// The layer that is drawn, and the rest of LayerPush (src/shadow/layer_shaders.h).
-#ifndef GNOMON_DRAWN_LAYER_GLSL
-#define GNOMON_DRAWN_LAYER_GLSL
+// The slice that is drawn, and the rest of LayerPush (src/shadow/layer_shaders.h).
+#ifndef GNOMON_DRAWN_SLICE_GLSL
+#define GNOMON_DRAWN_SLICE_GLSL
 
 layout(push_constant, scalar) uniform Push {
-  int layer;
-  float tolerance;  // of depth
+  int slice;
+  float tolerance;     // of depth
+  uint rangeTriangle;  // gl_PrimitiveID counts from this one of the array of all triangles
 };
 
 layout(constant_id = 3) const int kMultiview = 0;
 
-int drawnLayer() { return kMultiview == 1 ? gl_ViewIndex : layer; }
+int drawnSlice() { return kMultiview == 1 ? gl_ViewIndex : slice; }
 
 #endif

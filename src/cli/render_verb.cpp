@@ -50,7 +50,7 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
   Passes passes(session.device(), session.view());
   const Parameterization& parameterization = *options.maps.front();
   const Method method = methodFor(session, options, *options.biases.front());
-  const Filter& filter = *options.filters.front();
+  const ChosenFilter filter = filterFor(options, *options.filters.front());
   const Exact exact = computeExact(session, parameterization);
   const int side = mapSideOf(options, parameterization);
   const FittedMap fitted = fitMap(session, parameterization, exact, side, options.mapOptions).fitted;
@@ -64,8 +64,10 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
     return {densityPicture(exact.receivers, densities, title), oneChannel(session, densities), {"texels_per_m2"}};
   }
   const bool layers = show == "second-depth" || show == "layer-gap";
-  const DrawnMap map = drawMap(session, passes.renderers, fitted, exact,
-                               layers ? MapContent::TwoLayers : method.bias->content, options.cull);
+  const ChannelSet shown = layers            ? glsl::kChannelDepth | glsl::kChannelSecondDepth
+                           : show == "depth" ? glsl::kChannelDepth
+                                             : method.bias->channels;
+  const DrawnMap map = drawMap(session, passes.renderers, fitted, exact, shown, options.cull);
   if (layers || show == "depth") return depthImage(session, map, show);
   if (show == "labels") {
     const Judged judged = judge(session, passes, map, exact, method);
@@ -77,9 +79,9 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
   }
   std::vector<float> truth;
   if (show == "truth" || show == "difference")
-    truth = computeFilteredTruth(session.tracer(), exact.light, exact.receivers, exact.truth, fitted, filter.id);
+    truth = computeFilteredTruth(session.tracer(), exact.light, exact.receivers, exact.truth, fitted, filter);
   if (show == "truth") return {visibilityPicture(exact.receivers, truth), oneChannel(session, truth), {"Y"}};
-  const std::vector<float> visibility = filteredVisibility(session, passes, map, exact, method, filter.id);
+  const std::vector<float> visibility = filteredVisibility(session, passes, map, exact, method, filter);
   if (show == "difference") {
     ImageF difference = oneChannel(session, visibility);
     for (size_t i = 0; i < truth.size(); ++i) difference.values[i] -= truth[i];

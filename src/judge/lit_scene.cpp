@@ -42,14 +42,14 @@ FitInput LitScene::fitInput(int side) const {
 }
 
 void LitScene::record(gpu::Commands& commands, const MapImage& map, const BiasMethod& bias, int filter) {
-  record(commands, [&](VisibilityPass& into, const GBuffer& seen) {
+  const glsl::BiasParams params = defaultBiasParams(bias, computeBounds(scene_).diagonal());
+  record(commands, params, [&](VisibilityPass& into, const GBuffer& seen) {
     into.record(commands, buffers_, seen, map, bias, false, filter);
   });
 }
 
-void LitScene::record(gpu::Commands& commands, const Light& light) {
-  const float sceneScale = computeBounds(scene_).diagonal();
-  glsl::ShadeUniforms shade = shadeUniforms(camera_, light_, defaultBiasParams(sceneScale));
+void LitScene::record(gpu::Commands& commands, const glsl::BiasParams& params, const Light& light) {
+  glsl::ShadeUniforms shade = shadeUniforms(camera_, light_, params);
   shade.lightColor = lightColor_;
   shade.ambient = glm::vec3(0.05f);
   visibility_.setUniforms(shade);

@@ -20,11 +20,11 @@ class LitScene {
   // For a map that encloses the whole scene, whatever the camera sees; `side` in texels.
   FitInput fitInput(int side) const;
 
-  // What the camera sees, and how a map that is drawn by then lights it through a filter (kFilter*).
+  // What the camera sees, and how a map that is drawn by then lights it through a filter (kShadowFilter*).
   void record(gpu::Commands& commands, const MapImage& map, const BiasMethod& bias, int filter);
   // The same where something else than a map writes the visibility: `light` records that.
   using Light = std::function<void(VisibilityPass& into, const GBuffer& seen)>;
-  void record(gpu::Commands& commands, const Light& light);
+  void record(gpu::Commands& commands, const glsl::BiasParams& params, const Light& light);
   // Linear rgb, after the commands are done.
   ImageF picture() const;
 

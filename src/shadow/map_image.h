@@ -1,9 +1,9 @@
 #pragma once
-// A shadow map on the GPU: an array of D32 layers, drawn once a layer by the shaders that the
-// parameterization gives, and for two-layer biases a second array with the nearest depth behind the first.
+// A shadow map on the GPU: for each of its channels (shadow/channel.h) an array of slices, drawn slice by slice by the
+// shaders that the parameterization gives, once for each pass that writes one of them.
 
-#include "shadow/bias.h"
 #include "shadow/bounded_draws.h"
+#include "shadow/channel.h"
 #include "shadow/multiview_check.h"
 #include "shadow/parameterization.h"
 
@@ -23,11 +23,10 @@ enum class CullMode {
 CullMode parseCullMode(const std::string& name);
 const char* cullModeName(CullMode mode);
 
-// How the second layer is found. Both give the same bits where the peel's tolerance is 0.
+// How the second depth layer is found. Both give the same bits where the peel's tolerance is 0.
 enum class SecondLayer {
-  // Depth test "greater than the first layer" against its own depth buffer, MIN blending into a float target:
-  // no texture is
-  // read, and every fragment before the first layer dies in the early depth test.
+  // Depth test "greater than the first layer" against its own depth buffer, MIN blending into a float target: no texture
+  // is read, and every fragment before the first layer dies in the early depth test.
   Blend,
   // Depth peeling as in the paper: a fragment shader throws away what equals the first layer.
   Peel,
@@ -35,24 +34,27 @@ enum class SecondLayer {
 
 class MapImage {
  public:
-  // Throws WorldError where the device cannot hold the map.
-  MapImage(const gpu::Device& device, const FittedMap& fitted, MapContent content = MapContent::OneLayer);
+  // A map of these channels and what they need. Throws WorldError where the device cannot hold it.
+  MapImage(const gpu::Device& device, const FittedMap& fitted, ChannelSet channels = glsl::kChannelDepth);
 
-  const gpu::Image& depth() const { return depth_; }         // D32, layerCount layers
-  const gpu::Image& secondDepth() const { return second_; }  // R32F; only of TwoLayers
+  ChannelSet channels() const { return channels_; }
+  // Of one channel, which the map must have; layerCount slices.
+  const gpu::Image& image(ChannelSet channel) const;
+  const gpu::Image& depth() const { return image(glsl::kChannelDepth); }
+  const gpu::Image& secondDepth() const { return image(glsl::kChannelSecondDepth); }
+  // The same, or where the map lacks it another: for shaders that declare more than they read.
+  const gpu::Image& imageOrAny(ChannelSet channel) const;
   const gpu::Buffer& uniforms() const { return uniforms_; }  // glsl::MapUniforms
-  MapContent content() const { return content_; }
   int layerCount() const { return fitted_.map.layerCount; }
   int kind() const { return fitted_.map.kind; }  // glsl::kMap*
 
  private:
   friend class MapRenderer;
   FittedMap fitted_;
-  gpu::Image depth_;
-  gpu::Image second_;
+  ChannelSet channels_;
+  std::vector<std::pair<ChannelSet, gpu::Image>> images_;
   gpu::Image peelDepth_;  // made at the first peel
   gpu::Buffer uniforms_;
-  MapContent content_ = MapContent::OneLayer;
 };
 
 class MapRenderer {
@@ -67,13 +69,17 @@ class MapRenderer {
               SecondLayer method = SecondLayer::Blend) const;
 
  private:
-  enum class Pass { First, Blend, Peel };  // kPass
   struct Key {
     LayerShaders shaders;
-    Pass pass;
+    int pass;  // glsl::kPass*
     bool masked;
     int mapKind;
     uint32_t viewMask;
+    std::vector<VkFormat> colorFormats;
+    // Or else the rasterizer's own depth is all that is stored.
+    bool needsFragments() const {
+      return masked || !shaders.rasterizedDepth || pass != glsl::kPassNearest || !colorFormats.empty();
+    }
     bool operator==(const Key&) const = default;
   };
   struct Entry {
@@ -82,22 +88,25 @@ class MapRenderer {
   };
   const gpu::GraphicsProgram& program(const Key& key) const;
   // What one pass draws.
-  struct Layer {
+  struct Slice {
     const MapImage& map;
     int index;
     int count;  // 1, or all at once
-    Pass pass;
+    ChannelPass pass;
+    int shaderPass;  // glsl::kPass*
     gpu::RenderTargets targets;
   };
+  Key keyOf(const Slice& slice, bool masked) const;
   // How a draw's triangles are culled: sheets not at all, solids by the side they show the light.
   enum class Group { Sheets, Solids, MirroredSolids };
   using Grouping = std::function<Group(const Draw&)>;
-  void recordLayers(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
+  void recordSlices(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
                     CullMode cull, SecondLayer method, bool multiview) const;
+  gpu::RenderTargets targetsOf(MapImage& map, ChannelPass pass, SecondLayer method) const;
   bool takesMultiview(const MapImage& map) const;
-  void recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
+  void recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Slice& slice,
                      const Grouping& groupOf) const;
-  void recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
+  void recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Slice& slice,
                     const Grouping& groupOf) const;
 
   const gpu::Device& device_;

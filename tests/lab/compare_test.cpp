@@ -128,7 +128,7 @@ TEST(Compare, NoPictureHasANanOrAnInfinity) {
       for (const char* name : {"constant", "normal-offset", "receiver-plane", "dual", "adaptive-ehm"}) {
         const BiasMethod& bias = findBias(name);
         if (!map->answers(bias)) continue;
-        const DrawnMap drawn = drawMap(session, passes.renderers, fit.fitted, exact, bias.content, CullMode::Solids);
+        const DrawnMap drawn = drawMap(session, passes.renderers, fit.fitted, exact, bias.channels, CullMode::Solids);
         const Judged judged = judge(session, passes, drawn, exact, methodFor(session, {}, bias));
         for (const float v : judged.visibility) ASSERT_TRUE(v == 0.0f || v == 1.0f) << scene << " " << bias.name;
         for (const float v : renderRadiance(session, passes, exact, judged.visibility).values)

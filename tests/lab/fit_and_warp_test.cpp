@@ -34,7 +34,7 @@ TEST(FitAndWarp, AdaptiveHasNeitherAcneNorLeakOnSlopeUnderAnyOfThem) {
       const std::string what = std::string(name) + " " + windowFitName(options.fit) + " " + warpName(options.warp) +
                                " " + std::to_string(options.cascades);
       const DrawnMap drawn = drawMap(session, passes.renderers, fitMap(session, map, exact, 256, options).fitted, exact,
-                                     MapContent::OneLayer, CullMode::Solids);
+                                     glsl::kChannelDepth, CullMode::Solids);
       const Judged none = judge(session, passes, drawn, exact, methodFor(session, {}, findBias("none")));
       EXPECT_GT(none.labels.count(Label::Acne), exact.receivers.scored / 50) << what;
       const Judged adaptive = judge(session, passes, drawn, exact, methodFor(session, {}, findBias("adaptive")));

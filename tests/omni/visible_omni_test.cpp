@@ -47,9 +47,9 @@ class AxisParaboloid final : public Parameterization {
 class VisibleOmni : public gpu::GpuTest {
  protected:
   Scored score(const test::Rendered& r, const BiasMethod& method) {
-    const auto image = test::draw(device(), r, method.content, CullMode::Solids);
+    const auto image = test::draw(device(), r, method.channels, CullMode::Solids);
     VisibilityPass pass(device(), r.view.width, r.view.height);
-    pass.setUniforms(shadeUniforms(r.view, r.light, defaultBiasParams(r.fitted.map.sceneScale)));
+    pass.setUniforms(shadeUniforms(r.view, r.light, defaultBiasParams(method, r.fitted.map.sceneScale)));
     gpu::Commands commands(device(), "visibility");
     pass.record(commands, r.buffers, *r.gbuffer, *image, method, true);
     commands.submitAndWait();

@@ -22,7 +22,7 @@ class FilteredTruthTest : public gpu::GpuTest {
 TEST_F(FilteredTruthTest, WithoutAFilterItIsTheTruth) {
   const test::Rendered r = test::render(device(), "contact", spotParameterization(), 128, 64, CullMode::Solids);
   const Truth truth = computeTruth(*r.tracer, r.light, r.receivers);
-  const std::vector<float> visibility = filtered(r, glsl::kFilterNone);
+  const std::vector<float> visibility = filtered(r, glsl::kShadowFilterNone);
   for (size_t i = 0; i < visibility.size(); ++i) {
     if (r.receivers.states[i] != PixelState::Scored) continue;
     ASSERT_EQ(visibility[i], truth.lit[i] != 0 ? 1.0f : 0.0f);
@@ -36,7 +36,7 @@ TEST_F(FilteredTruthTest, AConcaveCreaseCastsNoShadow) {
   const Truth truth = computeTruth(*r.tracer, r.light, r.receivers);
   ASSERT_EQ(truth.litCount, r.receivers.scored);
   size_t inside = 0;
-  for (const int kind : {glsl::kFilterBilinear, glsl::kFilterJitter4x4}) {
+  for (const int kind : {glsl::kShadowFilterBilinear, glsl::kShadowFilterJitter4x4}) {
     const std::vector<float> visibility = filtered(r, kind);
     for (size_t i = 0; i < visibility.size(); ++i) {
       const glm::dvec3& at = r.receivers.samples[i].positionW;
@@ -56,7 +56,7 @@ TEST_F(FilteredTruthTest, ItSoftensEdgesAndKeepsTheMean) {
   double lit = 0.0;
   for (const uint8_t l : truth.lit) lit += l;
   size_t before = 0;
-  for (const int kind : {glsl::kFilterBilinear, glsl::kFilterJitter4x4}) {
+  for (const int kind : {glsl::kShadowFilterBilinear, glsl::kShadowFilterJitter4x4}) {
     const std::vector<float> visibility = filtered(r, kind);
     double sum = 0.0;
     size_t between = 0;

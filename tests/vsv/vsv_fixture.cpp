@@ -44,7 +44,7 @@ VolumeWorld buildVolume(const gpu::Device& device, const VolumeSetup& setup) {
 VolumeScore scoreVolume(const gpu::Device& device, const VolumeWorld& w, const char* bias) {
   VisibilityPass pass(device, w.view.width, w.view.height);
   VolumeVisibility visibility(device);
-  pass.setUniforms(shadeUniforms(w.view, w.light, defaultBiasParams(w.columns.map.sceneScale)));
+  pass.setUniforms(shadeUniforms(w.view, w.light, defaultBiasParams(findBias(bias), w.columns.map.sceneScale)));
   gpu::Commands commands(device, "visibility");
   visibility.record(commands, w.buffers, *w.gbuffer, *w.volume, pass, findBias(bias), true);
   commands.submitAndWait();

@@ -46,6 +46,8 @@ class Curves {
   int repeats_;
 };
 
+constexpr ChannelSet kTwoLayers = glsl::kChannelDepth | glsl::kChannelSecondDepth;
+
 // A scene with one light as one parameterization takes it, and a map to draw.
 class Subject {
  public:
@@ -56,14 +58,15 @@ class Subject {
         maps_(session, passes_.renderers, fitMap(session, kind, exact_, side, options.mapOptions).fitted, exact_,
               options.cull) {}
 
-  double build(MapContent content) { return maps_.redraw(content); }
+  double build(ChannelSet channels) { return maps_.redraw(channels); }
   double look(const char* bias) {
     const Method method = methodFor(session_, {}, findBias(bias));
-    return timeVisibility(session_, passes_, maps_.with(method.bias->content), exact_, method, glsl::kFilterNone);
+    return timeVisibility(session_, passes_, maps_.with(method.bias->channels), exact_, method,
+                          glsl::kShadowFilterNone);
   }
   double bits() {
     gpu::Commands commands(session_.device(), "bits");
-    passes_.renderers.volume.recordBits(commands, *maps_.with(MapContent::OneLayer).volume, Voxelization::Fused);
+    passes_.renderers.volume.recordBits(commands, *maps_.with(glsl::kChannelDepth).volume, Voxelization::Fused);
     return commands.submitAndWait().wallMs;
   }
   double trace() {
@@ -87,8 +90,8 @@ Growth withTriangles(const gpu::DeviceOptions& device, const BenchOptions& optio
     Subject cube(session, cubeParameterization(), 512, options);
     curves.addPoint(static_cast<double>(triangleCount(session.scene())), fmt::format("{}", count),
                     {{"gbuffer", [&] { return session.timeGBuffer(); }},
-                     {"cube, one layer", [&] { return cube.build(MapContent::OneLayer); }},
-                     {"cube, two layers", [&] { return cube.build(MapContent::TwoLayers); }},
+                     {"cube, one layer", [&] { return cube.build(glsl::kChannelDepth); }},
+                     {"cube, two layers", [&] { return cube.build(kTwoLayers); }},
                      {"visibility, constant", [&] { return cube.look("constant"); }},
                      {"exact shadow", [&] { return cube.trace(); }}});
   }
@@ -103,9 +106,9 @@ Growth withMapSize(const Session& session, const BenchOptions& options) {
     Subject cube(session, cubeParameterization(), static_cast<int>(side), options);
     Subject paraboloid(session, paraboloidParameterization(), paraboloidSide, options);
     curves.addPoint(static_cast<double>(texels), fmt::format("{}", texels),
-                    {{"cube, one layer", [&] { return cube.build(MapContent::OneLayer); }},
-                     {"cube, two layers", [&] { return cube.build(MapContent::TwoLayers); }},
-                     {"paraboloid, one layer", [&] { return paraboloid.build(MapContent::OneLayer); }},
+                    {{"cube, one layer", [&] { return cube.build(glsl::kChannelDepth); }},
+                     {"cube, two layers", [&] { return cube.build(kTwoLayers); }},
+                     {"paraboloid, one layer", [&] { return paraboloid.build(glsl::kChannelDepth); }},
                      {"visibility, cube, constant", [&] { return cube.look("constant"); }},
                      {"visibility, cube, adaptive", [&] { return cube.look("adaptive"); }}});
   }
@@ -138,7 +141,7 @@ Growth withVolumeSize(const Session& session, const BenchOptions& options) {
     sized.mapOptions.volumeSource = VolumeSource::Direct;
     Subject volume(session, volumeParameterization(), 1024, sized);
     curves.addPoint(static_cast<double>(size.alpha) * size.theta * size.phi, volumeSizeName(size),
-                    {{"volume, all", [&] { return volume.build(MapContent::OneLayer); }},
+                    {{"volume, all", [&] { return volume.build(glsl::kChannelDepth); }},
                      {"volume, bits", [&] { return volume.bits(); }},
                      {"visibility, adaptive", [&] { return volume.look("adaptive"); }}});
   }

@@ -125,24 +125,24 @@ void BenchStages::addLimits() {
 
 void BenchStages::addMaps() {
   const auto build = [&](const std::string& name, const Parameterization& kind, const MapOptions& options,
-                         std::initializer_list<MapContent> contents) {
+                         std::initializer_list<ChannelSet> contents) {
     BenchMap& map = maps_->add(session_, options_, kind, name, options);
-    for (const MapContent content : contents)
+    for (const ChannelSet content : contents)
       add(fmt::format("map/{}/{}", name, contentName(content)), kBaseMap,
           [&map, content] { return map.set->redraw(content); });
   };
   const MapOptions& given = options_.mapOptions;
-  const auto all = {MapContent::OneLayer, MapContent::TwoLayers, MapContent::BackFaces};
+  const auto all = {glsl::kChannelDepth, glsl::kChannelDepth | glsl::kChannelSecondDepth, glsl::kChannelBackDepth};
   build("cube", cubeParameterization(), given, all);
   MapOptions other = given;
   other.cubeDepth = CubeDepth::Radial;
-  build("cube, radial", cubeParameterization(), other, {MapContent::OneLayer});
+  build("cube, radial", cubeParameterization(), other, {glsl::kChannelDepth});
   build("paraboloid", paraboloidParameterization(), given, all);
   for (const ParaboloidRaster raster : {ParaboloidRaster::Vertex, ParaboloidRaster::Tessellated}) {
     other = given;
     other.paraboloidRaster = raster;
     build(fmt::format("paraboloid, {}", paraboloidRasterName(raster)), paraboloidParameterization(), other,
-          {MapContent::OneLayer});
+          {glsl::kChannelDepth});
   }
   for (const Parameterization* planar : parseMaps("spot,directional")) build(planar->name(), *planar, given, all);
 }
@@ -160,10 +160,10 @@ void BenchStages::addVisibility() {
     BenchMap& map = maps_->named(mapName);
     const BiasMethod& bias = findBias(biasName);
     const Method method = methodFor(session_, {}, bias);
-    const std::string suffix = filter.id == glsl::kFilterNone ? std::string() : fmt::format(", {}", filter.name);
+    const std::string suffix = filter.id == glsl::kShadowFilterNone ? std::string() : fmt::format(", {}", filter.name);
     add(fmt::format("visibility/{}/{}{}", mapName, biasName, suffix), kBaseVisibility,
         [this, &map, method, id = filter.id] {
-          return timeVisibility(session_, maps_->passes, map.set->with(method.bias->content), map.exact, method, id);
+          return timeVisibility(session_, maps_->passes, map.set->with(method.bias->channels), map.exact, method, id);
         });
   };
   look("cube", "constant", filters().front());
@@ -184,9 +184,9 @@ void BenchStages::addVolumes() {
     const std::string name = fmt::format("vsv, {}", volumeSourceName(source));
     BenchMap& map = maps_->add(session_, options_, volumeParameterization(), name, options);
     add(fmt::format("volume/{}/all", volumeSourceName(source)), kBaseMap,
-        [&map] { return map.set->redraw(MapContent::OneLayer); });
+        [&map] { return map.set->redraw(glsl::kChannelDepth); });
     if (source == VolumeSource::Direct) {
-      const ShadowVolume& volume = *map.set->with(MapContent::OneLayer).volume;
+      const ShadowVolume& volume = *map.set->with(glsl::kChannelDepth).volume;
       auto to =
           std::make_shared<gpu::Buffer>(device, gpu::BufferDesc{.name = "bench volume", .size = volume.bits().size()});
       add(copy, "limit/device copy 64 MiB", [&device, &volume, to] {
@@ -206,8 +206,8 @@ void BenchStages::addVolumes() {
       const Method method = methodFor(session_, {}, findBias(biasName));
       if (source == VolumeSource::Direct)
         add(fmt::format("visibility/vsv/{}", biasName), kBaseVisibility, [this, &map, method] {
-          return timeVisibility(session_, maps_->passes, map.set->with(MapContent::OneLayer), map.exact, method,
-                                glsl::kFilterNone);
+          return timeVisibility(session_, maps_->passes, map.set->with(glsl::kChannelDepth), map.exact, method,
+                                glsl::kShadowFilterNone);
         });
     }
   }
@@ -222,7 +222,7 @@ void BenchStages::addMedia() {
                                        .receiversW = view.receiversW,
                                        .camera = session_.view(),
                                        .options = options_.mapOptions});
-    return drawMap(session_, maps_->passes.renderers, fitted, exact, MapContent::OneLayer, options_.cull);
+    return drawMap(session_, maps_->passes.renderers, fitted, exact, glsl::kChannelDepth, options_.cull);
   };
   DrawnMap volume = draw(volumeParameterization()), cube = draw(cubeParameterization());
   maps_->medium.reset(new BenchMedium{exact, std::move(view), std::move(volume), std::move(cube),

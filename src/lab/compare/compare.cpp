@@ -49,12 +49,12 @@ void describe(Row& row, const Entry& entry, const Judged& judged) {
   const BiasMethod& bias = *entry.method.bias;
   row.bias = bias.name;
   row.tuning = entry.tuning;
-  for (const BiasKnob& knob : knobsOf(bias)) {
-    row.knobs.emplace_back(knob.name, static_cast<double>(entry.method.params.*knob.field));
+  for (const Knob& knob : knobsOf(bias)) {
+    row.knobs.emplace_back(knob.name, static_cast<double>(valueOf(entry.method.params, bias, knob)));
     row.knobUnits.emplace_back(unitName(knob.unit));
   }
-  row.content = contentName(bias.content);
-  if (bias.hasEpsilon) row.epsilonAt = epsilonAtName(entry.method.params.epsilonAt);
+  row.content = contentName(bias.channels);
+  if (bias.takesEpsilonAt) row.epsilonAt = epsilonAtName(entry.method.params.epsilonAt);
   const LabelImage& labels = judged.labels;
   row.agree = labels.count(Label::Agree);
   row.acne = labels.count(Label::Acne);
@@ -65,6 +65,14 @@ void describe(Row& row, const Entry& entry, const Judged& judged) {
   row.scored = row.agree + row.acne + row.leak + row.edgeShadow + row.edgeLight + row.uncovered;
   row.grazing = judged.grazing;
   row.edgeOn = judged.edgeOn.size();
+}
+
+void describeFilter(Row& row, const Filter& filter, const ChosenFilter& chosen) {
+  row.filter = filter.name;
+  for (size_t i = 0; i < filter.knobs.size(); ++i) {
+    row.knobs.emplace_back(fmt::format("filter_{}", filter.knobs[i].name), static_cast<double>(chosen.params.knobs[i]));
+    row.knobUnits.emplace_back(unitName(filter.knobs[i].unit));
+  }
 }
 
 double rmseOf(const Exact& exact, std::span<const float> visibility, std::span<const float> truth) {
@@ -129,7 +137,7 @@ class MapComparison {
     if (found != truths_.end()) return found->second;
     FilteredTruth truth;
     truth.visibility = computeFilteredTruth(session_.tracer(), exact_.light, exact_.receivers, exact_.truth,
-                                            maps_->fitted(), filter.id);
+                                            maps_->fitted(), filterFor(options_, filter));
     truth.beauty = toSrgb8(renderRadiance(session_, passes_, exact_, truth.visibility));
     return truths_.emplace(filter.id, std::move(truth)).first->second;
   }
@@ -153,14 +161,14 @@ class MapComparison {
   }
 
   void judgeEntry(const Entry& entry) {
-    const DrawnMap& map = maps_->with(entry.method.bias->content);
+    const DrawnMap& map = maps_->with(entry.method.bias->channels);
     const Judged judged = judge(session_, passes_, map, exact_, entry.method);
     for (const Filter* filter : options_.filters) {
       const FilteredTruth& truth = filteredTruth(*filter);
       std::vector<float> visibility =
-          filter->id == glsl::kFilterNone
+          filter->id == glsl::kShadowFilterNone
               ? judged.visibility
-              : gnomon::filteredVisibility(session_, passes_, map, exact_, entry.method, filter->id);
+              : gnomon::filteredVisibility(session_, passes_, map, exact_, entry.method, filterFor(options_, *filter));
       for (const size_t pixel : judged.edgeOn) visibility[pixel] = truth.visibility[pixel];
       Row row;
       row.map = parameterization_.name();
@@ -172,14 +180,14 @@ class MapComparison {
       row.layers = map.fitted.map.layerCount;
       row.cull = cullModeName(options_.cull);
       row.mapOptions = options_.mapOptions;
-      row.filter = filter->name;
       describe(row, entry, judged);
+      describeFilter(row, *filter, filterFor(options_, *filter));
       row.rmse = rmseOf(exact_, visibility, truth.visibility);
       const int width = exact_.receivers.width, height = exact_.receivers.height;
       row.worstAcne = findWorstPlace(judged.labels, width, height, Label::Acne);
       row.worstLeak = findWorstPlace(judged.labels, width, height, Label::Leak);
       // Half a second a row at 1024 x 1024: what binary results have labels for.
-      const bool flips = options_.filters.size() > 1 || filter->id != glsl::kFilterNone;
+      const bool flips = options_.filters.size() > 1 || filter->id != glsl::kShadowFilterNone;
       Image8 beauty;
       if (flips || !options_.outDir.empty()) beauty = toSrgb8(renderRadiance(session_, passes_, exact_, visibility));
       if (flips) row.flip = computeFlip(truth.beauty, beauty).mean;
@@ -203,26 +211,26 @@ class MapComparison {
   // tuned row costs what its untuned one costs.
   void timeRows(const std::vector<Entry>& entries) {
     const size_t filterCount = options_.filters.size();
-    std::map<MapContent, std::vector<double>> build;
+    std::map<ChannelSet, std::vector<double>> build;
     std::vector<std::vector<double>> shade(options_.biases.size() * filterCount);
     for (int round = -1; round < options_.repeats; ++round) {  // round -1 warms up: pipelines compile at first use
       step(round < 0 ? "timing, warm-up" : fmt::format("timing, {} of {}", round + 1, options_.repeats));
-      std::map<MapContent, double> drawn;
+      std::map<ChannelSet, double> drawn;
       for (const BiasMethod* bias : options_.biases)
-        if (!drawn.contains(bias->content)) drawn[bias->content] = maps_->redraw(bias->content);
+        if (!drawn.contains(bias->channels)) drawn[bias->channels] = maps_->redraw(bias->channels);
       if (round >= 0)
-        for (const auto& [content, ms] : drawn) build[content].push_back(ms);
+        for (const auto& [channels, ms] : drawn) build[channels].push_back(ms);
       for (size_t i = 0; i < shade.size(); ++i) {
         const Method& method = entries[i / filterCount].method;
-        const double ms = timeVisibility(session_, passes_, maps_->with(method.bias->content), exact_, method,
-                                         options_.filters[i % filterCount]->id);
+        const double ms = timeVisibility(session_, passes_, maps_->with(method.bias->channels), exact_, method,
+                                         filterFor(options_, *options_.filters[i % filterCount]));
         if (round >= 0) shade[i].push_back(ms);
       }
     }
     for (const Entry& entry : entries) {
       const auto like = std::ranges::find(options_.biases, entry.method.bias) - options_.biases.begin();
       for (size_t f = 0; f < filterCount; ++f) {
-        rows_[entry.row + f].buildMs = median(build[entry.method.bias->content]);
+        rows_[entry.row + f].buildMs = median(build[entry.method.bias->channels]);
         rows_[entry.row + f].shadeMs = median(shade[static_cast<size_t>(like) * filterCount + f]);
       }
     }
@@ -238,13 +246,13 @@ class MapComparison {
                        .zFar = fitted.zFar,
                        .solidAngles = computeSolidAngles(fitted)};
     if (options_.outDir.empty()) return summary;
-    const bool two =
-        std::ranges::any_of(options_.biases, [](const BiasMethod* b) { return b->content == MapContent::TwoLayers; });
-    const DrawnMap& map = maps_->with(two ? MapContent::TwoLayers : MapContent::OneLayer);
+    const bool two = std::ranges::any_of(
+        options_.biases, [](const BiasMethod* b) { return (b->channels & glsl::kChannelSecondDepth) != 0; });
+    const DrawnMap& map = maps_->with(glsl::kChannelDepth | (two ? glsl::kChannelSecondDepth : 0));
     const FilteredTruth& plain = filteredTruth(filters().front());
     summary.pictures = writeMapPictures(session_, exact_, map, plain, options_.outDir, folder_);
     for (const Filter* filter : options_.filters)
-      if (filter->id != glsl::kFilterNone)
+      if (filter->id != glsl::kShadowFilterNone)
         summary.filteredTruths.emplace_back(filter->name,
                                             writeFilteredTruth(exact_, filteredTruth(*filter), options_.outDir,
                                                                fmt::format("{}/truth.{}", folder_, filter->name)));
@@ -309,7 +317,7 @@ CompareOptions optionsFor(const CompareOptions& options, const Parameterization&
   CompareOptions own = options;
   std::erase_if(own.biases, [&](const BiasMethod* bias) { return !map.answers(*bias); });
   std::erase_if(own.filters,
-                [&](const Filter* filter) { return filter->id != glsl::kFilterNone && !map.takesFilters(); });
+                [&](const Filter* filter) { return filter->id != glsl::kShadowFilterNone && !map.takesFilters(); });
   return own;
 }
 

@@ -86,16 +86,16 @@ Elsewhere Robustness::judgeAt(Place& place, const TunedMethod& tuned) {
   const TunedMethod best = tune(*place.trial, tuned.method);
   elsewhere.biasError = static_cast<double>(errors) / scored;
   elsewhere.bestBiasError = static_cast<double>(std::min(best.biasErrors, errors)) / scored;
-  const BiasKnob& knob = knobsOf(*tuned.method.bias).front();
-  elsewhere.bestValue = static_cast<double>((best.biasErrors <= errors ? best : tuned).method.params.*knob.field);
+  const Method& better = (best.biasErrors <= errors ? best : tuned).method;
+  elsewhere.bestValue = static_cast<double>(valueOf(better.params, *better.bias, knobsOf(*better.bias).front()));
   return elsewhere;
 }
 
 Tuning tuningOf(const TunedMethod& tuned) {
-  const BiasKnob& knob = knobsOf(*tuned.method.bias).front();
+  const Knob& knob = knobsOf(*tuned.method.bias).front();
   Tuning tuning;
   tuning.knob = knob.name;
-  tuning.value = static_cast<double>(tuned.method.params.*knob.field);
+  tuning.value = static_cast<double>(valueOf(tuned.method.params, *tuned.method.bias, knob));
   tuning.unit = unitName(knob.unit);
   tuning.evaluations = tuned.evaluations;
   return tuning;

@@ -16,7 +16,7 @@ DepthImages depthInMetres(const Session& session, const DrawnMap& map) {
     first = gpu::downloadAs<float>(session.device(), map.image->depth());
   }
   std::vector<float> second;
-  if (map.image && map.image->content() == MapContent::TwoLayers)
+  if (map.image && (map.image->channels() & glsl::kChannelSecondDepth) != 0)
     second = gpu::downloadAs<float>(session.device(), map.image->secondDepth());
   const ImageF nothing(shape.side * shape.layerCount, shape.rows, 1, std::numeric_limits<float>::infinity());
   DepthImages images{.first = nothing};

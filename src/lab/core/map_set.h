@@ -13,9 +13,9 @@ class MapSet {
   MapSet(const Session& session, const Renderers& renderers, const FittedMap& fitted, const Exact& exact, CullMode cull)
       : session_(session), renderers_(renderers), fitted_(fitted), exact_(exact), cull_(cull) {}
 
-  const DrawnMap& with(MapContent content);
+  const DrawnMap& with(ChannelSet channels);
   // Wall clock of drawing it once more, milliseconds.
-  double redraw(MapContent content);
+  double redraw(ChannelSet channels);
   const FittedMap& fitted() const { return fitted_; }
 
  private:
@@ -24,7 +24,7 @@ class MapSet {
   const FittedMap fitted_;
   const Exact& exact_;
   CullMode cull_;
-  std::map<MapContent, DrawnMap> maps_;
+  std::map<ChannelSet, DrawnMap> maps_;
 };
 
 }  // namespace gnomon

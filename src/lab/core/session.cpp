@@ -115,14 +115,14 @@ Fit fitMap(const Session& session, const Parameterization& parameterization, con
 }
 
 DrawnMap drawMap(const Session& session, const Renderers& renderers, const FittedMap& fitted, const Exact& exact,
-                 MapContent content, CullMode cull) {
+                 ChannelSet channels, CullMode cull) {
   DrawnMap map{.fitted = fitted};
   if (fitted.map.kind == glsl::kMapEpipolar) {
-    GNOMON_CHECK(content == MapContent::OneLayer);
+    GNOMON_CHECK_EQ(channels, glsl::kChannelDepth);
     map.volume = std::make_unique<ShadowVolume>(
         session.device(), FittedVolume{.grid = fitted.map.epipolar, .columns = fitted}, fitted.lookedUpIn);
   } else {
-    map.image = std::make_unique<MapImage>(session.device(), fitted, content);
+    map.image = std::make_unique<MapImage>(session.device(), fitted, channels);
   }
   redrawMap(session, renderers, map, exact, cull);
   return map;
@@ -141,9 +141,9 @@ double redrawMap(const Session& session, const Renderers& renderers, const Drawn
 namespace {
 
 void recordVisibility(gpu::Commands& commands, const Session& session, Passes& passes, const DrawnMap& map,
-                      const BiasMethod& bias, bool diagnose, int filter) {
+                      const BiasMethod& bias, bool diagnose, const ChosenFilter& filter) {
   if (map.volume) {
-    GNOMON_CHECK_EQ(filter, glsl::kFilterNone);
+    GNOMON_CHECK_EQ(filter.id, glsl::kShadowFilterNone);
     passes.volumeVisibility.record(commands, session.buffers(), session.gbuffer(), *map.volume, passes.visibility, bias,
                                    diagnose);
   } else {
@@ -154,7 +154,7 @@ void recordVisibility(gpu::Commands& commands, const Session& session, Passes& p
 }  // namespace
 
 double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
-                      const Method& method, int filter) {
+                      const Method& method, const ChosenFilter& filter) {
   passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, method.params));
   gpu::Commands commands(session.device(), "visibility");
   recordVisibility(commands, session, passes, map, *method.bias, false, filter);
@@ -162,7 +162,7 @@ double timeVisibility(const Session& session, Passes& passes, const DrawnMap& ma
 }
 
 std::vector<float> filteredVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
-                                      const Method& method, int filter) {
+                                      const Method& method, const ChosenFilter& filter) {
   timeVisibility(session, passes, map, exact, method, filter);
   return gpu::downloadAs<float>(session.device(), passes.visibility.visibility());
 }
@@ -186,7 +186,7 @@ std::vector<glsl::PixelDiagnosis> diagnose(const Session& session, Passes& passe
                                            const Exact& exact, const Method& method) {
   passes.visibility.setUniforms(shadeUniforms(session.view(), exact.light, method.params));
   gpu::Commands commands(session.device(), "visibility, diagnosed");
-  recordVisibility(commands, session, passes, map, *method.bias, true, glsl::kFilterNone);
+  recordVisibility(commands, session, passes, map, *method.bias, true, glsl::kShadowFilterNone);
   commands.submitAndWait();
   return gpu::downloadAs<glsl::PixelDiagnosis>(session.device(), passes.visibility.diagnosis());
 }

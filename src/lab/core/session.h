@@ -85,7 +85,7 @@ struct DrawnMap {
   std::unique_ptr<ShadowVolume> volume;
 };
 DrawnMap drawMap(const Session& session, const Renderers& renderers, const FittedMap& fitted, const Exact& exact,
-                 MapContent content, CullMode cull);
+                 ChannelSet channels, CullMode cull);
 // Wall clock of drawing it once more.
 double redrawMap(const Session& session, const Renderers& renderers, const DrawnMap& map, const Exact& exact,
                  CullMode cull);
@@ -109,13 +109,13 @@ struct Method {
   glsl::BiasParams params{};
 };
 
-// One visibility pass without diagnosis; wall clock. `filter`: kFilter*.
+// One visibility pass without diagnosis; wall clock.
 double timeVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
-                      const Method& method, int filter);
+                      const Method& method, const ChosenFilter& filter);
 
 // The same, and what it says: one value a pixel.
 std::vector<float> filteredVisibility(const Session& session, Passes& passes, const DrawnMap& map, const Exact& exact,
-                                      const Method& method, int filter);
+                                      const Method& method, const ChosenFilter& filter);
 
 // One bias on one map: what it says of every pixel, and why it is wrong where it is.
 struct Judged {

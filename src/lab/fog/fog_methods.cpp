@@ -51,7 +51,7 @@ class LightMaps {
                                       .side = options_.mapSide,
                                       .camera = session_.view(),
                                       .options = options_.map});
-    made->drawn = drawMap(session_, renderers_, fitted, made->exact, MapContent::OneLayer, options_.cull);
+    made->drawn = drawMap(session_, renderers_, fitted, made->exact, glsl::kChannelDepth, options_.cull);
     return made;
   }
 

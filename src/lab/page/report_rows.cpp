@@ -33,7 +33,7 @@ std::string raw(double value) {
 std::string knobUnit(const ReportRow& row, const std::string& knob) {
   if (row.tuning && row.tuning->knob == knob && knob != row.tuning->unit) return row.tuning->unit;
   for (const BiasMethod& method : biasMethods())
-    for (const BiasKnob& listed : method.knobs)
+    for (const Knob& listed : method.knobs)
       if (method.name == row.bias && listed.name == knob && knob != unitName(listed.unit)) return unitName(listed.unit);
   return "";
 }

@@ -192,7 +192,7 @@ void figure9(PaperRun& run) {
   MapSet maps(session, passes.renderers, fitMap(session, map, exact, options.mapSide, {}).fitted, exact,
               CullMode::Solids);
   const Judged judged =
-      judge(session, passes, maps.with(MapContent::OneLayer), exact, methodFor(session, {}, findBias("adaptive")));
+      judge(session, passes, maps.with(glsl::kChannelDepth), exact, methodFor(session, {}, findBias("adaptive")));
   double wrongCount = 0.0, wrongCosine = 0.0, edgeOn = 0.0, litCount = 0.0, litCosine = 0.0;
   for (size_t i = 0; i < judged.labels.labels.size(); ++i) {
     if (exact.receivers.states[i] != PixelState::Scored) continue;

@@ -28,7 +28,7 @@ class Counter {
     size_t wrong = 0, acne = 0, leak = 0;
   };
   Counts count(const Method& method) {
-    const Judged judged = judge(session_, passes_, maps_.with(method.bias->content), exact_, method);
+    const Judged judged = judge(session_, passes_, maps_.with(method.bias->channels), exact_, method);
     return {.wrong = exact_.receivers.scored - judged.labels.count(Label::Agree),
             .acne = judged.labels.count(Label::Acne),
             .leak = judged.labels.count(Label::Leak)};
