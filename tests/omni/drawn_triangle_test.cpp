@@ -59,9 +59,11 @@ TEST_F(DrawnTriangle, IsTheFirstThatTheTexelsRayHits) {
         ++drawn;
         others += !hit || !(hit->primitive == stored) ? 1 : 0;
       }
-      // At edges the rasterizer's grid of 1/256 texel, and straight pieces of arcs, decide otherwise than the ray.
-      EXPECT_GT(drawn, layers.z2.size() / 8) << scene << " " << kind.name();
-      EXPECT_LT(others, drawn / 50) << scene << " " << kind.name();
+      // At the edges of triangles the rasterizer's grid of 1/256 texel decides otherwise than the ray; a straight piece
+      // of an arc is off by up to half a texel, which is 4% of atrium's texels.
+      const bool straight = *fitted.shaders.bounds != '\0' && fitted.shaders.rasterizedDepth;
+      EXPECT_GT(drawn, layers.z2.size() / 16) << scene << " " << kind.name();
+      EXPECT_LT(others, drawn / (straight ? 20 : 500)) << scene << " " << kind.name() << (straight ? ", pieces" : "");
     }
   }
 }
