@@ -75,7 +75,7 @@ class Seams {
   Scores score(const Fit& fit, const char* bias) {
     MapSet maps(session_, passes_.renderers, fit.fitted, exact_, CullMode::Solids);
     const Method method = methodFor(session_, {}, findBias(bias));
-    const DrawnMap& map = maps.with(method.bias->content);
+    const DrawnMap& map = maps.with(method.bias->channels);
     const Judged judged = judge(session_, passes_, map, exact_, method);
     Scores scores{.labels = judged.labels, .squares = {}};
     for (const Filter& filter : filters()) {

@@ -38,7 +38,7 @@ TEST_F(TuneTest, ErrorsAreThoseOfTheLabels) {
     for (const float share : {0.0f, 1.0f, 8.0f, 0.3f}) {
       Method m = method(name);
       m.params.knobs[0] *= share;
-      const Judged judged = judge(session_, passes_, maps_.with(m.bias->content), exact_, m);
+      const Judged judged = judge(session_, passes_, maps_.with(m.bias->channels), exact_, m);
       EXPECT_EQ(trial_.biasErrors(m), judged.labels.count(Label::Acne) + judged.labels.count(Label::Leak))
           << name << " " << share;
     }
