@@ -83,9 +83,8 @@ FittedMap makeCubeMap(const glm::dvec3& lightW, CubeDepth depth, double zNear, d
   }
   fitted.shaders.mirroredLayers = 0x3f;
   if (radial) {
-    constexpr const char* kFragment = "omni/draw_cube_radial.frag.glsl";
-    fitted.shaders.depth = fitted.shaders.depthMasked = kFragment;
-    fitted.shaders.secondDepth = fitted.shaders.peel = kFragment;
+    fitted.shaders.fragment = "omni/draw_cube_radial.frag.glsl";
+    fitted.shaders.rasterizedDepth = false;
   }
   return fitted;
 }

@@ -38,9 +38,9 @@ LayerShaders shadersFor(ParaboloidRaster raster) {
   LayerShaders shaders;
   shaders.projective = false;
   if (raster == ParaboloidRaster::Exact) {
-    constexpr const char* kFragment = "shadow/draw_bounded_triangle.frag.glsl";
     shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
-    shaders.depth = shaders.depthMasked = shaders.secondDepth = shaders.peel = kFragment;
+    shaders.fragment = "shadow/draw_bounded_triangle.frag.glsl";
+    shaders.rasterizedDepth = false;
     shaders.bounds = "omni/bound_in_paraboloid.comp.glsl";
   } else if (raster == ParaboloidRaster::Tessellated) {
     shaders.vertex = "omni/pull_straight_triangle.vert.glsl";

@@ -52,10 +52,6 @@ uint64_t volumeTexelCount(const glsl::EpipolarGrid& grid) {
   return thetas * static_cast<uint64_t>(grid.alphaCount) * static_cast<uint64_t>(grid.phiCount / glsl::kPhiBits);
 }
 
-bool volumeSupportsBias(const BiasMethod& method) {
-  return method.id == glsl::kBiasNone || method.id == glsl::kBiasConstant || method.id == glsl::kBiasAdaptive;
-}
-
 ShadowVolume::ShadowVolume(const gpu::Device& device, const FittedMap& columns)
     : Occluders(device, checkedFor(device, columns), "volume uniforms"),
       bits_(device, {.name = "volume bits", .size = bytesOf(grid())}),
@@ -109,8 +105,8 @@ void ShadowVolume::recordBits(gpu::Commands& commands, const gpu::ComputeProgram
 
 void ShadowVolume::recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                                     VisibilityPass& pass, const ShadowLookup& lookup) const {
-  GNOMON_CHECK(volumeSupportsBias(lookup.bias));
-  GNOMON_CHECK_EQ(lookup.filter, glsl::kFilterNone);
+  GNOMON_CHECK(lookup.bias.onVolumes);
+  GNOMON_CHECK_EQ(lookup.filter.id, glsl::kShadowFilterNone);
   const gpu::ComputeProgram& program =
       pass.programs().get("vsv/shade_volume_visibility.comp.glsl", {{.id = 0, .value = lookup.bias.id},
                                                                     {.id = 1, .value = lookup.diagnose ? 1 : 0},

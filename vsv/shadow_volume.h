@@ -15,9 +15,6 @@ namespace gnomon {
 // camera's eye: there is no axis.
 FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit);
 
-// Whether a bias means anything on bits: none, constant and adaptive do (shaders/shared/volume_lookup.glsl).
-bool volumeSupportsBias(const BiasMethod& method);
-
 // How the bits are made of the occluders. Both give the same bits.
 enum class Voxelization {
   // One pass: an invocation takes 128 columns, clears their texels as far as a bit is set, sets the first

@@ -22,7 +22,7 @@ class VolumeParameterization final : public Parameterization {
     return {.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};
   }
 
-  bool supportsBias(const BiasMethod& method) const override { return volumeSupportsBias(method); }
+  bool supportsBias(const BiasMethod& method) const override { return method.onVolumes; }
   bool supportsFilters() const override { return false; }
 
   FittedMap fit(const FitInput& input) const override {
@@ -38,8 +38,8 @@ class VolumeParameterization final : public Parameterization {
   }
 
   std::unique_ptr<Occluders> createOccluders(const gpu::Device& device, const FittedMap& fitted,
-                                             MapContent content) const override {
-    GNOMON_CHECK(content == MapContent::OneLayer);
+                                             ChannelSet channels) const override {
+    GNOMON_CHECK_EQ(channels, glsl::kChannelDepth);
     return std::make_unique<ShadowVolume>(device, fitted);
   }
 };

@@ -30,17 +30,26 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-std::string knobFlag(const BiasMethod& method, const BiasKnob& knob) {
-  return fmt::format("--{}-{}", method.name, knob.name);
+// Of a bias or a filter, which are never named alike.
+std::string knobFlag(const char* owner, const Knob& knob) {
+  return fmt::format("--{}-{}", owner, knob.name);
 }
 
-std::string knobHelp(const BiasMethod& method, const BiasKnob& knob) {
+std::string knobHelp(const char* owner, const Knob& knob) {
   const std::string unit = *unitName(knob.unit) != '\0' ? fmt::format(" [{}]", unitName(knob.unit)) : "";
-  return fmt::format("{}: {}{}; default {:g}{}", method.name, knob.sentence, unit, knob.defaultValue,
+  return fmt::format("{}: {}{}; default {:g}{}", owner, knob.sentence, unit, knob.defaultValue,
                      knob.defaultOfSceneScale ? " of the scene's diagonal" : "");
 }
 
-float checkedKnob(const std::string& flag, const BiasKnob& knob, float value) {
+template <typename Function>
+void forEachKnob(Function function) {
+  for (const BiasMethod& method : biasMethods())
+    for (const Knob& knob : method.knobs) function(method.name, knob);
+  for (const Filter& filter : filters())
+    for (const Knob& knob : filter.knobs) function(filter.name, knob);
+}
+
+float checkedKnob(const std::string& flag, const Knob& knob, float value) {
   if (!(value >= knob.lower && value <= knob.upper))
     throw UsageError(
         fmt::format("{} {:g} is outside {:g}..{:g} {}", flag, value, knob.lower, knob.upper, unitName(knob.unit)));
@@ -54,6 +63,50 @@ std::string filterChoices() {
   return choices;
 }
 
+float parseKnobValue(const std::string& text, const std::string& number) {
+  size_t used = 0;
+  float value = 0.0f;
+  try {
+    value = std::stof(number, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != number.size())
+    throw UsageError(fmt::format("--bias-file-knob {}: '{}' is no number; write NAME=VALUE or VALUE", text, number));
+  return value;
+}
+
+std::string knobNames(const BiasMethod& method) {
+  std::string names;
+  for (const Knob& knob : method.knobs) names += (names.empty() ? "" : ", ") + std::string(knob.name);
+  return names;
+}
+
+// NAME=VALUE: of every file that has such a knob. VALUE alone: of every file, each of which must have one knob.
+void setUserKnob(const std::string& text, CompareOptions& options) {
+  const size_t equals = text.find('=');
+  const bool named = equals != std::string::npos;
+  const std::string name = named ? text.substr(0, equals) : "";
+  const float value = parseKnobValue(text, named ? text.substr(equals + 1) : text);
+  bool found = false;
+  std::string known;
+  for (const auto& user : options.userBiases) {
+    const BiasMethod& method = user->method;
+    if (method.knobs.empty() && (!named || options.userBiases.size() == 1))
+      throw UsageError(fmt::format("--bias-file-knob {}: {} has no knob; write //! knob: in it", text, user->path));
+    if (!named && method.knobs.size() > 1)
+      throw UsageError(fmt::format("--bias-file-knob {}: {} has {} knobs; write NAME=VALUE, NAME one of {}", text,
+                                   user->path, method.knobs.size(), knobNames(method)));
+    known += (known.empty() || method.knobs.empty() ? "" : ", ") + knobNames(method);
+    for (const Knob& knob : method.knobs) {
+      if (named && name != knob.name) continue;
+      options.knobs.push_back({&knob, checkedKnob("--bias-file-knob " + std::string(knob.name), knob, value)});
+      found = true;
+    }
+  }
+  if (!found) throw UsageError(fmt::format("--bias-file-knob {}: no such knob; choose from {}", text, known));
+}
+
 void addUserBiases(const MethodFlags& flags, CompareOptions& options) {
   for (const std::string& path : flags.biasFiles) {
     options.userBiases.push_back(loadUserBias(path));
@@ -63,13 +116,9 @@ void addUserBiases(const MethodFlags& flags, CompareOptions& options) {
         throw UsageError(fmt::format("--bias-file {}: two biases are named '{}'; write //! name: in one of them", path,
                                      method.name));
     options.biases.push_back(&method);
-    if (!flags.biasFileKnob) continue;
-    if (method.knobs.empty())
-      throw UsageError(fmt::format("--bias-file-knob: {} has no knob; write //! knob: in it", path));
-    options.knobs.push_back(
-        {&method.knobs.front(), checkedKnob("--bias-file-knob", method.knobs.front(), *flags.biasFileKnob)});
   }
-  if (flags.biasFiles.empty() && flags.biasFileKnob) throw UsageError("--bias-file-knob needs a --bias-file");
+  if (flags.biasFiles.empty() && !flags.biasFileKnobs.empty()) throw UsageError("--bias-file-knob needs a --bias-file");
+  for (const std::string& text : flags.biasFileKnobs) setUserKnob(text, options);
 }
 
 void addFitFlags(CLI::App& verb, MethodFlags& flags) {
@@ -182,8 +231,11 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
   verb.add_option("--biases", flags.biases, fmt::format("comma-separated, or all: {}", biases))->capture_default_str();
   verb.add_option("--bias-file", flags.biasFiles,
                   "GLSL file with a bias of your own, scored as one more row (docs/add_a_bias.md); may be repeated");
-  verb.add_option("--bias-file-knob", flags.biasFileKnob,
-                  "value of your bias's knob, in its unit; default: as the file says");
+  verb.add_option(
+          "--bias-file-knob", flags.biasFileKnobs,
+          "NAME=VALUE: a knob of your bias, in its unit (VALUE alone where it has one knob); default: as the file "
+          "says; may be repeated")
+      ->allow_extra_args(false);
   verb.add_option("--filters", flags.filters, "comma-separated, or all: " + filterChoices())->capture_default_str();
   CLI::Option* side =
       verb.add_option("--map-size", flags.mapSize, "side of a map's layer, texels")->capture_default_str();
@@ -212,11 +264,11 @@ void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps,
       ->capture_default_str();
   addFitFlags(verb, flags);
   addVolumeFlags(verb, flags);
-  for (const BiasMethod& method : biasMethods())
-    for (const BiasKnob& knob : method.knobs)
-      verb.add_option_function<float>(
-          knobFlag(method, knob), [&flags, flag = knobFlag(method, knob)](float value) { flags.knobs[flag] = value; },
-          knobHelp(method, knob));
+  forEachKnob([&](const char* owner, const Knob& knob) {
+    const std::string flag = knobFlag(owner, knob);
+    verb.add_option_function<float>(
+        flag, [&flags, flag](float value) { flags.knobs[flag] = value; }, knobHelp(owner, knob));
+  });
 }
 
 CompareOptions compareOptions(const MethodFlags& flags) {
@@ -246,13 +298,10 @@ CompareOptions compareOptions(const MethodFlags& flags) {
   options.mapTexels = flags.mapTexels;
   if (flags.mapTexels < 0) throw UsageError(fmt::format("--map-texels {}: must be positive", flags.mapTexels));
   for (const Parameterization* map : options.maps) mapSideOf(options, *map);
-  for (const BiasMethod& method : biasMethods()) {
-    for (const BiasKnob& knob : method.knobs) {
-      const auto found = flags.knobs.find(knobFlag(method, knob));
-      if (found == flags.knobs.end()) continue;
-      options.knobs.push_back({&knob, checkedKnob(found->first, knob, found->second)});
-    }
-  }
+  forEachKnob([&](const char* owner, const Knob& knob) {
+    const auto found = flags.knobs.find(knobFlag(owner, knob));
+    if (found != flags.knobs.end()) options.knobs.push_back({&knob, checkedKnob(found->first, knob, found->second)});
+  });
   addUserBiases(flags, options);
   for (const Parameterization* map : options.maps) checkMeaning(options, *map);
   return options;

@@ -4,7 +4,6 @@
 #include "lab/compare/compare.h"
 
 #include <map>
-#include <optional>
 #include <string>
 
 namespace CLI {
@@ -26,7 +25,7 @@ struct MethodFlags {
   std::string maps;
   std::string biases;
   std::vector<std::string> biasFiles;
-  std::optional<float> biasFileKnob;
+  std::vector<std::string> biasFileKnobs;  // NAME=VALUE or VALUE
   std::string filters = "none";
   int mapSize = 1024;
   long mapTexels = 0;

@@ -77,7 +77,7 @@ class Parameterization {
   // Room on the device for what fit() gave, not drawn yet (occluders.h): a map image, unless it is overridden. Throws
   // WorldError where the device cannot hold it.
   virtual std::unique_ptr<Occluders> createOccluders(const gpu::Device& device, const FittedMap& fitted,
-                                                     MapContent content) const;
+                                                     ChannelSet channels) const;
 };
 
 }  // namespace gnomon

@@ -159,6 +159,47 @@ TEST_F(CliTest, EveryBiasKnobIsAFlag) {
   EXPECT_EQ(rows[1].at("params").at("cull"), "none");
 }
 
+TEST_F(CliTest, AFiltersKnobIsAFlag) {
+  const Result result = run(
+      "compare corner --biases none --filters none,jitter4x4 --jitter4x4-width 6 --size 32 --map-size 32 --repeats 1 "
+      "--json @/r.json");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto rows = nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows");
+  EXPECT_FALSE(rows[0].at("params").contains("filter_width"));
+  EXPECT_EQ(rows[1].at("params").at("filter_width"), 6);
+}
+
+TEST_F(CliTest, AFilesKnobsAreSetByName) {
+  const char* lit = "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) { return true; }\n";
+  writeTextFile(folder_ / "one.glsl", std::string("//! knob: reach texels 0 8 1\n") + lit);
+  writeTextFile(folder_ / "two.glsl",
+                std::string("//! knob: reach texels 0 8 1\n//! knob: offset metres 0 9 1\n") + lit);
+  writeTextFile(folder_ / "none.glsl", lit);
+  const std::string small = " --biases none --size 32 --map-size 32 --repeats 1 --json @/r.json";
+  ASSERT_EQ(run("compare corner --bias-file @/one.glsl --bias-file @/two.glsl --bias-file @/none.glsl --bias-file-knob "
+                "reach=2 --bias-file-knob offset=3" +
+                small)
+                .exitCode,
+            0);
+  auto rows = nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows");
+  EXPECT_EQ(rows[1].at("params").at("reach"), 2);
+  EXPECT_EQ(rows[2].at("params").at("reach"), 2);
+  EXPECT_EQ(rows[2].at("params").at("offset"), 3);
+  ASSERT_EQ(run("compare corner --bias-file @/one.glsl --bias-file-knob 4" + small).exitCode, 0);
+  rows = nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows");
+  EXPECT_EQ(rows[1].at("params").at("reach"), 4);
+
+  expectMistake("compare corner --bias-file-knob 4", 2, "--bias-file-knob needs a --bias-file");
+  expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob 4", 2,
+                "two.glsl has 2 knobs; write NAME=VALUE, NAME one of reach, offset");
+  expectMistake("compare corner --bias-file @/none.glsl --bias-file-knob 4", 2, "none.glsl has no knob");
+  expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob rich=4", 2,
+                "--bias-file-knob rich=4: no such knob; choose from reach, offset");
+  expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=much", 2, "'much' is no number");
+  expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=9", 2,
+                "--bias-file-knob reach 9 is outside 0..8 texels");
+}
+
 TEST_F(CliTest, AShadowVolumeLeavesOutWhatMeansNothingOnItAndSaysSo) {
   const Result result =
       run("compare contact --maps vsv --biases none,slope,adaptive --vsv-size 64x64x128 --size 32 --repeats 1");

@@ -70,7 +70,7 @@ TEST_F(LightOnMapTest, DrawingAgainGivesTheSameBits) {
 TEST_F(LightOnMapTest, WhatABiasReadsIsDrawnForIt) {
   LitMap map(device(), "contact", spotParameterization(), 64, smallSetup());
   map.judge("dual");
-  const Occluders& two = map.lit.occluders(findBias("dual").content);
+  const Occluders& two = map.lit.occluders(findBias("dual").channels);
   EXPECT_NE(&two, &map.lit.occluders());
   const std::vector<float> first = two.downloadDepth(device()), second = two.downloadSecondDepth(device());
   EXPECT_EQ(first, map.lit.occluders().downloadDepth(device()));

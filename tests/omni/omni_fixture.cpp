@@ -45,14 +45,19 @@ FittedMap fitWhole(const World& world, const Parameterization& map, int side, co
 }
 
 Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
-                  MapContent content, SecondLayer method) {
-  MapImage image(device, fitted, content);
+                  ChannelSet channels, SecondLayer method) {
+  MapImage image(device, fitted, channels);
   const MapRenderer renderer(device);
   gpu::Commands commands(device, "shadow map");
   renderer.record(commands, world.buffers, image, world.light, cull, method);
   commands.submitAndWait();
-  Layers layers{.z1 = gpu::downloadAs<float>(device, image.depth())};
-  if (content == MapContent::TwoLayers) layers.z2 = gpu::downloadAs<float>(device, image.secondDepth());
+  const auto depthsOf = [&](ChannelSet channel) {
+    return (image.channels() & channel) != 0 ? gpu::downloadAs<float>(device, image.image(channel))
+                                             : std::vector<float>();
+  };
+  const Layers layers{.z1 = depthsOf(glsl::kChannelDepth),
+                      .z2 = depthsOf(glsl::kChannelSecondDepth),
+                      .zBack = depthsOf(glsl::kChannelBackDepth)};
   return layers;
 }
 

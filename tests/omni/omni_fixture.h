@@ -30,10 +30,10 @@ World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3
 FittedMap fitWhole(const World& world, const Parameterization& map, int side, const MapOptions& options = {});
 
 struct Layers {
-  std::vector<float> z1, z2;  // layer after layer; z2 only of TwoLayers
+  std::vector<float> z1, z2, zBack;  // slice after slice; empty where the map has no such channel
 };
 Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
-                  MapContent content = MapContent::OneLayer, SecondLayer method = SecondLayer::Blend);
+                  ChannelSet channels = glsl::kChannelDepth, SecondLayer method = SecondLayer::Blend);
 
 // The light ray through a place on a layer, in texels (the centre of texel (x, y) is (x + 0.5, y + 0.5)).
 RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place);

@@ -122,8 +122,9 @@ TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
     for (const Kind& kind : kindsOfAllRasters()) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 64, kind.options);
       for (const CullMode cull : {CullMode::None, CullMode::Solids}) {
-        const Layers blended = test::drawLayers(device(), world, fitted, cull, MapContent::TwoLayers);
-        const Layers peeled = test::drawLayers(device(), world, fitted, cull, MapContent::TwoLayers, SecondLayer::Peel);
+        const Layers blended = test::drawLayers(device(), world, fitted, cull, glsl::kChannelSecondDepth);
+        const Layers peeled =
+            test::drawLayers(device(), world, fitted, cull, glsl::kChannelSecondDepth, SecondLayer::Peel);
         EXPECT_EQ(blended.z1, peeled.z1) << scene << ", " << kind.name;
         EXPECT_EQ(blended.z2, peeled.z2) << scene << ", " << kind.name;
         size_t seconds = 0;
@@ -147,7 +148,7 @@ TEST_F(RenderedLayers, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
     for (const Kind& kind : all) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 96, kind.options);
       const auto drawAll = [&] {
-        return test::drawLayers(device(), world, fitted, CullMode::None, MapContent::TwoLayers);
+        return test::drawLayers(device(), world, fitted, CullMode::None, glsl::kChannelSecondDepth);
       };
       const Layers parts = drawAll();
       std::vector<Draw> cut = world.buffers.draws;
@@ -172,13 +173,13 @@ TEST_F(RenderedLayers, CullingSolidsChangesOnlySilhouettes) {
     const FittedMap fitted = test::fitWhole(world, kind.map, 128, kind.options);
     const Layers all = test::drawLayers(device(), world, fitted, CullMode::None);
     const Layers culled = test::drawLayers(device(), world, fitted, CullMode::Solids);
-    const Layers back = test::drawLayers(device(), world, fitted, CullMode::Solids, MapContent::BackFaces);
+    const Layers back = test::drawLayers(device(), world, fitted, CullMode::Solids, glsl::kChannelBackDepth);
     size_t different = 0, behind = 0;
     for (size_t i = 0; i < all.z1.size(); ++i) {
       ASSERT_LE(all.z1[i], culled.z1[i]);
-      ASSERT_LE(all.z1[i], back.z1[i]);
+      ASSERT_LE(all.z1[i], back.zBack[i]);
       different += all.z1[i] != culled.z1[i] ? 1 : 0;
-      behind += all.z1[i] < back.z1[i] ? 1 : 0;
+      behind += all.z1[i] < back.zBack[i] ? 1 : 0;
     }
     EXPECT_LT(different, all.z1.size() / 500) << kind.name;
     EXPECT_GT(behind, all.z1.size() / 200) << kind.name;

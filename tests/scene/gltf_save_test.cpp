@@ -133,7 +133,7 @@ TEST(RoundTripOfFiles, awkwardSceneLoadsAgainEqual) {
   scene.materials[1].alphaCutoff = 0.1f;
   scene.textures.push_back(scene.textures[0]);
   scene.textures[1].wrapS = glsl::kWrapMirror;
-  scene.textures[1].filterMode = glsl::kFilterLinear;
+  scene.textures[1].filterMode = glsl::kTexFilterLinear;
   scene.materials[1].baseColorTexture = 1;
   scene.materials[1].baseColor = glm::vec4(0.1f, 1.0f / 3.0f, 0.7f, 0.9f);
   scene.lights.clear();

@@ -72,7 +72,7 @@ glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth) {
 }
 
 Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,
-                int mapSide, CullMode cull, MapContent content) {
+                int mapSide, CullMode cull, ChannelSet channels) {
   Rendered r;
   r.scene = openScene(sceneName);
   r.tracer = std::make_unique<Tracer>(r.scene);
@@ -91,13 +91,13 @@ Rendered render(const gpu::Device& device, const std::string& sceneName, const P
   for (size_t i = 0; i < r.receivers.states.size(); ++i)
     if (r.receivers.states[i] == PixelState::Scored) scored.push_back(r.receivers.samples[i].positionW);
   r.fitted = map.fit({.scene = r.scene, .light = r.light, .receiversW = scored, .side = mapSide, .camera = r.view});
-  r.image = draw(device, r, content, cull);
+  r.image = draw(device, r, channels, cull);
   return r;
 }
 
-std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, MapContent content, CullMode cull,
+std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, ChannelSet channels, CullMode cull,
                                SecondLayer method) {
-  auto image = std::make_unique<MapImage>(device, r.fitted, content);
+  auto image = std::make_unique<MapImage>(device, r.fitted, channels);
   const MapRenderer renderer(device);
   gpu::Commands commands(device, "shadow map");
   renderer.record(commands, r.buffers, *image, r.light, cull, method);

@@ -42,10 +42,10 @@ struct Rendered {
   std::unique_ptr<MapImage> image;
 };
 Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,
-                int mapSide, CullMode cull, MapContent content = MapContent::OneLayer);
+                int mapSide, CullMode cull, ChannelSet channels = glsl::kChannelDepth);
 
-// The map of `r` with other content, or drawn another way.
-std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, MapContent content, CullMode cull,
+// The map of `r` with other channels, or drawn another way.
+std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, ChannelSet channels, CullMode cull,
                                SecondLayer method = SecondLayer::Blend);
 
 }  // namespace gnomon::test

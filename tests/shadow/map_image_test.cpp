@@ -143,8 +143,8 @@ TEST_F(MapImageTest, BlendingAndPeelingGiveTheSameTwoLayers) {
     for (const Parameterization* map : planarParameterizations()) {
       const test::Rendered r = test::render(device(), generated.name, *map, 64, 192, CullMode::None);
       for (const CullMode cull : {CullMode::None, CullMode::Solids}) {
-        const auto blended = test::draw(device(), r, MapContent::TwoLayers, cull, SecondLayer::Blend);
-        const auto peeled = test::draw(device(), r, MapContent::TwoLayers, cull, SecondLayer::Peel);
+        const auto blended = test::draw(device(), r, glsl::kChannelSecondDepth, cull, SecondLayer::Blend);
+        const auto peeled = test::draw(device(), r, glsl::kChannelSecondDepth, cull, SecondLayer::Peel);
         EXPECT_EQ(gpu::download(device(), blended->depth()), gpu::download(device(), peeled->depth()));
         EXPECT_EQ(gpu::download(device(), blended->secondDepth()), gpu::download(device(), peeled->secondDepth()))
             << generated.name << " " << map->name();
@@ -159,7 +159,7 @@ TEST_F(MapImageTest, BlendingAndPeelingGiveTheSameTwoLayers) {
 // The second layer is the second hit of the texel's ray, but near the edges of what is hit.
 TEST_F(MapImageTest, TheSecondLayerIsTheSecondHitOfItsRay) {
   const test::Rendered r = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
-  const auto image = test::draw(device(), r, MapContent::TwoLayers, CullMode::None);
+  const auto image = test::draw(device(), r, glsl::kChannelSecondDepth, CullMode::None);
   const auto z1 = gpu::downloadAs<float>(device(), image->depth());
   const auto z2 = gpu::downloadAs<float>(device(), image->secondDepth());
   size_t compared = 0, off = 0;
@@ -190,9 +190,9 @@ TEST_F(MapImageTest, TheSecondLayerIsTheSecondHitOfItsRay) {
 // show no acne.
 TEST_F(MapImageTest, BackFacesLieBehindFrontFaces) {
   const test::Rendered r = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
-  const auto back = test::draw(device(), r, MapContent::BackFaces, CullMode::Solids);
+  const auto back = test::draw(device(), r, glsl::kChannelBackDepth, CullMode::Solids);
   const auto a = gpu::downloadAs<float>(device(), r.image->depth());
-  const auto b = gpu::downloadAs<float>(device(), back->depth());
+  const auto b = gpu::downloadAs<float>(device(), back->image(glsl::kChannelBackDepth));
   size_t behind = 0;
   for (size_t i = 0; i < a.size(); ++i) {
     EXPECT_LE(a[i], b[i]);

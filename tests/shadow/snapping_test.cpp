@@ -27,7 +27,7 @@ class SnappingTest : public gpu::GpuTest {
                                       .camera = camera,
                                       .options = options});
     if (!buffers_) buffers_ = createSceneBuffers(device(), *seen.scene);
-    MapImage image(device(), fitted, MapContent::OneLayer);
+    MapImage image(device(), fitted, glsl::kChannelDepth);
     const MapRenderer renderer(device());
     gpu::Commands commands(device(), "shadow map");
     renderer.record(commands, *buffers_, image, seen.light, CullMode::Solids);

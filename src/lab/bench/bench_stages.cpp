@@ -120,24 +120,24 @@ void BenchStages::addLimits() {
 
 void BenchStages::addMaps() {
   const auto build = [&](const std::string& name, const Parameterization& kind, const MapOptions& options,
-                         std::initializer_list<MapContent> contents) {
+                         std::initializer_list<ChannelSet> contents) {
     BenchMap& map = maps_->add(session_, options_, kind, name, options);
-    for (const MapContent content : contents)
+    for (const ChannelSet content : contents)
       add(fmt::format("map/{}/{}", name, contentName(content)), kBaseMap,
           [&map, content] { return map.lit.redraw(content); });
   };
   const MapOptions& given = options_.mapOptions;
-  const auto all = {MapContent::OneLayer, MapContent::TwoLayers, MapContent::BackFaces};
+  const auto all = {glsl::kChannelDepth, glsl::kChannelDepth | glsl::kChannelSecondDepth, glsl::kChannelBackDepth};
   build("cube", cubeParameterization(), given, all);
   MapOptions other = given;
   other.cubeDepth = CubeDepth::Radial;
-  build("cube, radial", cubeParameterization(), other, {MapContent::OneLayer});
+  build("cube, radial", cubeParameterization(), other, {glsl::kChannelDepth});
   build("paraboloid", paraboloidParameterization(), given, all);
   for (const ParaboloidRaster raster : {ParaboloidRaster::Vertex, ParaboloidRaster::Tessellated}) {
     other = given;
     other.paraboloidRaster = raster;
     build(fmt::format("paraboloid, {}", paraboloidRasterName(raster)), paraboloidParameterization(), other,
-          {MapContent::OneLayer});
+          {glsl::kChannelDepth});
   }
   for (const Parameterization* planar : parseMaps("spot,directional")) build(planar->name(), *planar, given, all);
 }
@@ -154,7 +154,7 @@ void BenchStages::addVisibility() {
   const auto look = [&](const std::string& mapName, const char* biasName, const Filter& filter) {
     BenchMap& map = maps_->named(mapName);
     const Method method = atDefaults(findBias(biasName), session_);
-    const std::string suffix = filter.id == glsl::kFilterNone ? std::string() : fmt::format(", {}", filter.name);
+    const std::string suffix = filter.id == glsl::kShadowFilterNone ? std::string() : fmt::format(", {}", filter.name);
     add(fmt::format("visibility/{}/{}{}", mapName, biasName, suffix), kBaseVisibility,
         [&map, method, id = filter.id] { return map.lit.timeVisibility(method, id); });
   };

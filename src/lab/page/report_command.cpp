@@ -52,7 +52,7 @@ const BiasMethod* methodNamed(const std::string& name) {
 
 bool isKnobFlag(std::string_view flag) {
   for (const BiasMethod& method : biasMethods())
-    for (const BiasKnob& knob : method.knobs)
+    for (const Knob& knob : method.knobs)
       if (flag == fmt::format("--{}-{}", method.name, knob.name)) return true;
   return false;
 }
@@ -78,11 +78,10 @@ std::string keptPart(const std::string& command, bool dropsLight) {
   return kept;
 }
 
-// The three adaptive methods share the first one's knob.
 std::string knobFlag(const Row& row, const std::string& knob) {
   const BiasMethod* method = methodNamed(row.bias);
-  const bool shared = method != nullptr && method->hasEpsilon && method->knobs.empty();
-  return fmt::format("--{}-{}", shared ? "adaptive" : row.bias, knob);
+  const bool shares = method != nullptr && method->sharesKnobsWith != nullptr;
+  return fmt::format("--{}-{}", shares ? method->sharesKnobsWith : row.bias, knob);
 }
 
 }  // namespace

@@ -45,11 +45,11 @@ std::string compareCommand(const Session& session, const CompareOptions& options
   if (filters != "none") line += " --filters " + filters;
   for (const KnobValue& value : options.knobs)
     for (const BiasMethod* bias : options.biases)
-      for (const BiasKnob& knob : bias->knobs)
+      for (const Knob& knob : bias->knobs)
         if (&knob == value.knob)
-          line += bias->user != nullptr
-                      ? fmt::format(" --bias-file {} --bias-file-knob {:.6g}", bias->user->path, value.value)
-                      : fmt::format(" --{}-{} {:.6g}", bias->name, knob.name, value.value);
+          line += bias->user != nullptr ? fmt::format(" --bias-file {} --bias-file-knob {}={:.6g}", bias->user->path,
+                                                      knob.name, value.value)
+                                        : fmt::format(" --{}-{} {:.6g}", bias->name, knob.name, value.value);
   if (options.epsilonAt != glsl::kEpsilonAtOccluder)
     line += fmt::format(" --epsilon-at {}", epsilonAtName(options.epsilonAt));
   if (options.tune) line += " --tune";
@@ -239,14 +239,14 @@ std::vector<FrameCost> timeFrames(const Session& session, const Parameterization
   for (int round = -1; round < repeats; ++round) {  // round -1 compiles the pipelines
     progress.step(round < 0 ? "first frames" : fmt::format("round {} of {} of frames", round + 1, repeats));
     double first = 0.0;
-    std::map<std::pair<int, MapContent>, double> drawn;  // methods that share a map share what it took
+    std::map<std::pair<int, ChannelSet>, double> drawn;  // methods that share a map share what it took
     for (size_t i = 0; i < kinds.size(); ++i) {
       const FrameKind& kind = kinds[i];
       double build = 0.0, visibility = 0.0, rest = session.timeGBuffer();
       if (kind.bias != nullptr) {
         LightOnMap& lit = maps.at(kind.mapSide);
-        const std::pair key(kind.mapSide, kind.bias->content);
-        if (!drawn.contains(key)) drawn[key] = lit.redraw(kind.bias->content);
+        const std::pair key(kind.mapSide, kind.bias->channels);
+        if (!drawn.contains(key)) drawn[key] = lit.redraw(kind.bias->channels);
         build = drawn[key];
         visibility = lit.timeVisibility(atDefaults(*kind.bias, session), kind.filter->id);
       }
