@@ -3,7 +3,6 @@
 #include "base/error.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -12,26 +11,6 @@
 namespace gnomon {
 
 namespace {
-
-std::optional<double> parseNumber(const std::string& text) {
-  double value = 0.0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::optional<glm::vec3> tryVec3(const std::string& text) {
-  std::istringstream words(text);
-  glm::vec3 v(0.0f);
-  int count = 0;
-  for (std::string word; std::getline(words, word, ','); ++count) {
-    const std::optional<double> number = parseNumber(word);
-    if (!number || count == 3) return std::nullopt;
-    v[count] = static_cast<float>(*number);
-  }
-  if (count != 3) return std::nullopt;
-  return v;
-}
 
 template <typename T>
 std::string namesOf(const std::vector<T>& things) {
@@ -159,12 +138,6 @@ PictureSize parseSize(const std::string& text) {
   if (size.width < 1 || size.height < 1 || size.width > 16384 || size.height > 16384)
     throw UsageError(fmt::format("--size {}: write N or WxH, each 1..16384 pixels", text));
   return size;
-}
-
-glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
-  const std::optional<glm::vec3> v = tryVec3(text);
-  if (!v) throw UsageError(fmt::format("{} {}: write three numbers, x,y,z", flag, text));
-  return *v;
 }
 
 Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {

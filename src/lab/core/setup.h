@@ -1,6 +1,7 @@
 #pragma once
 // From the words of a command line to what is measured: a scene, a light, a camera, a picture size.
 
+#include "base/parse.h"
 #include "shadow/parameterization.h"
 #include "truth/tracer.h"
 
@@ -25,9 +26,6 @@ struct PictureSize {
 
 // "640x480" or "512". Throws UsageError outside 1..16384.
 PictureSize parseSize(const std::string& text);
-
-// "1,2,3". Throws UsageError that names `flag`.
-glm::vec3 parseVec3(const std::string& flag, const std::string& text);
 
 // The light a map is made for. Throws UsageError (malformed) or WorldError (none of that name: lists those
 // there are; or one that the map cannot take).
