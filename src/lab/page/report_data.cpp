@@ -81,11 +81,17 @@ ReportRow readRow(const ReportField& field) {
                 .tuned = field.has("tuned") && field["tuned"].flag(),
                 .tuning = readTuning(field),
                 .worstAcne = readPlace(field, "worst_acne"),
-                .worstLeak = readPlace(field, "worst_leak")};
+                .worstLeak = readPlace(field, "worst_leak"),
+                .command = field.has("command") ? field["command"].text() : ""};
   if (row.agree > row.scored) field["agree"].fail("must be at most scored");
   if (field.has("params"))
     field["params"].forMembers([&](const std::string& name, const ReportField& value) {
-      row.params.push_back({name, value.anyText(), value.isNumber() && name != "cascades"});
+      const bool named = field.has("knob_units");  // since schema 4
+      const bool isKnob = named ? field["knob_units"].has(name.c_str()) : value.isNumber() && name != "cascades";
+      row.params.push_back({.name = name,
+                            .text = value.anyText(),
+                            .isKnob = isKnob,
+                            .unit = named && isKnob ? field["knob_units"][name.c_str()].text() : ""});
     });
   if (field.has("pictures")) row.pictures = field["pictures"].pictures();
   return row;

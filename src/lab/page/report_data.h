@@ -34,7 +34,8 @@ struct ReportPlace {
 
 struct ReportParam {
   std::string name, text;
-  bool isKnob = false;  // a number that --<bias>-<name> sets
+  bool isKnob = false;    // of the row's bias
+  std::string unit = {};  // of a knob
 };
 
 struct ReportRow {
@@ -50,6 +51,7 @@ struct ReportRow {
   bool tuned = false;
   std::optional<ReportTuning> tuning;
   std::optional<ReportPlace> worstAcne, worstLeak;
+  std::string command;  // that makes it again; empty before schema 4
   ReportPictures pictures;
 
   uint64_t wrong() const { return scored - agree; }

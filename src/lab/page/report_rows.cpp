@@ -1,8 +1,5 @@
 #include "lab/page/report_rows.h"
 
-#include "lab/page/report_command.h"
-#include "shadow/bias.h"
-
 #include <algorithm>
 #include <cctype>
 
@@ -30,12 +27,10 @@ std::string raw(double value) {
   return fmt::format("{}", value);
 }
 
-std::string knobUnit(const ReportRow& row, const std::string& knob) {
-  if (row.tuning && row.tuning->knob == knob && knob != row.tuning->unit) return row.tuning->unit;
-  for (const BiasMethod& method : biasMethods())
-    for (const BiasKnob& listed : method.knobs)
-      if (method.name == row.bias && listed.name == knob && knob != unitName(listed.unit)) return unitName(listed.unit);
-  return "";
+// Not of a knob that is named after its unit.
+std::string knobUnit(const ReportRow& row, const ReportParam& knob) {
+  const std::string& unit = row.tuning && row.tuning->knob == knob.name ? row.tuning->unit : knob.unit;
+  return unit == knob.name ? "" : unit;
 }
 
 std::string withUnit(const std::string& value, const std::string& unit) {
@@ -46,7 +41,7 @@ std::string knobsText(const ReportRow& row) {
   std::string text;
   for (const ReportParam& param : row.params) {
     if (!param.isKnob) continue;
-    const std::string value = withUnit(shortNumber(std::stod(param.text)), knobUnit(row, param.name));
+    const std::string value = withUnit(shortNumber(std::stod(param.text)), knobUnit(row, param));
     text += fmt::format("{}{}\u00a0{}", text.empty() ? "" : ", ", param.name, value);
   }
   return text;
@@ -119,7 +114,7 @@ View configurationView(const ReportRow& row) {
   for (const ReportParam& param : row.params) {
     std::string name = param.name;
     std::ranges::replace(name, '_', ' ');
-    addPair(list, name, param.isKnob ? withUnit(param.text, knobUnit(row, param.name)) : param.text);
+    addPair(list, name, param.isKnob ? withUnit(param.text, knobUnit(row, param)) : param.text);
   }
   return list;
 }
@@ -255,8 +250,7 @@ View rowView(const ReportRow& row, size_t rank, const RowContext& context, Repor
   view.set("params", configurationView(row));
   view.set("counts", countsView(row));
   view.set("tuning", row.tuning ? tuningView(*row.tuning) : View(false));
-  const std::string command = rowCommand(context.data.command, row);
-  view.set("rowCommand", command.empty() ? View(false) : View(command));
+  view.set("rowCommand", row.command.empty() ? View(false) : View(row.command));
   return view;
 }
 

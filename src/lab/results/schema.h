@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-inline constexpr int kResultsVersion = 3;
+inline constexpr int kResultsVersion = 4;
 
 const char* gnomonVersion();
 

@@ -1,0 +1,120 @@
+#include "lab/compare/compare_command.h"
+
+#include "base/check.h"
+#include "base/parse.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+class Words {
+ public:
+  explicit Words(std::string first) : line_(std::move(first)) {}
+  void word(const std::string& word) { line_ += " " + shellWord(word); }
+  void flag(const std::string& flag, const std::string& value) {
+    word(flag);
+    word(value);
+  }
+  void flagUnless(const std::string& usual, const std::string& name, const std::string& value) {
+    if (value != usual) flag(name, value);
+  }
+  const std::string& line() const { return line_; }
+
+ private:
+  std::string line_;
+};
+
+void addSetup(Words& words, const SetupOptions& setup) {
+  const SetupOptions defaults;
+  words.word(setup.scene);
+  words.flagUnless("", "--light", setup.light);
+  words.flagUnless("", "--camera", setup.camera);
+  words.flagUnless("", "--direction", setup.direction);
+  if (setup.coneDegrees) words.flag("--cone", fmt::format("{}", *setup.coneDegrees));
+  words.flagUnless(defaults.size, "--size", setup.size);
+}
+
+template <typename T>
+std::string namesOf(const std::vector<T>& things, const auto& nameOf) {
+  std::string names;
+  for (const T& thing : things) names += (names.empty() ? "" : ",") + std::string(nameOf(thing));
+  return names;
+}
+
+void addMaps(Words& words, const CompareOptions& options) {
+  const CompareOptions defaults;
+  words.flag("--maps", namesOf(options.maps, [](const Parameterization* map) { return map->name(); }));
+  if (options.mapTexels != 0)
+    words.flag("--map-texels", fmt::format("{}", options.mapTexels));
+  else if (options.mapSide != defaults.mapSide)
+    words.flag("--map-size", fmt::format("{}", options.mapSide));
+  for (const ChosenOption& choice : options.mapOptions.choices())
+    words.flag(choice.option->flag(), choice.option->textOf(choice.value));
+  if (options.cull != defaults.cull) words.flag("--cull", cullModeName(options.cull));
+}
+
+bool has(const std::vector<BiasKnob>& knobs, const BiasKnob* knob) {
+  return std::ranges::any_of(knobs, [&](const BiasKnob& other) { return &other == knob; });
+}
+
+// A knob that several methods share is named by the one that lists it.
+std::string flagOf(const BiasKnob& knob) {
+  for (const BiasMethod& method : biasMethods())
+    if (has(method.knobs, &knob)) return knobFlag(method, knob);
+  return "--bias-file-knob";
+}
+
+void addBiases(Words& words, const CompareOptions& options) {
+  for (const std::shared_ptr<const UserBias>& user : options.userBiases) words.flag("--bias-file", user->path);
+  words.flag("--biases", namesOf(options.biases, [](const BiasMethod* bias) { return bias->name; }));
+  for (const KnobValue& value : options.knobs)
+    if (std::ranges::any_of(options.biases, [&](const BiasMethod* bias) { return has(knobsOf(*bias), value.knob); }))
+      words.flag(flagOf(*value.knob), fmt::format("{}", value.value));
+  if (options.epsilonAt != CompareOptions().epsilonAt) words.flag("--epsilon-at", epsilonAtName(options.epsilonAt));
+  if (options.tune) words.word("--tune");
+  words.flagUnless("none", "--filters", namesOf(options.filters, [](const Filter* filter) { return filter->name; }));
+}
+
+// The one of this name, which must be there.
+template <typename T>
+std::vector<T> only(const std::vector<T>& things, const std::string& name, const auto& nameOf) {
+  const auto found = std::ranges::find_if(things, [&](const T& thing) { return name == nameOf(thing); });
+  GNOMON_CHECK(found != things.end());
+  return {*found};
+}
+
+}  // namespace
+
+std::string compareCommand(const SetupOptions& setup, const CompareOptions& options) {
+  Words words("gnomon compare");
+  addSetup(words, setup);
+  addMaps(words, options);
+  addBiases(words, options);
+  return words.line();
+}
+
+std::string rowCommand(const SetupOptions& setup, const CompareOptions& options, const Row& row) {
+  CompareOptions own = options;
+  own.maps = only(options.maps, row.map, [](const Parameterization* map) { return map->name(); });
+  own.biases = only(options.biases, row.bias, [](const BiasMethod* bias) { return bias->name; });
+  own.filters = only(options.filters, row.filter, [](const Filter* filter) { return filter->name; });
+  const BiasMethod& bias = *own.biases.front();
+  std::erase_if(own.userBiases, [&](const auto& user) { return &user->method != &bias; });
+  own.tune = row.tuning.has_value() && row.isSum;
+  if (row.tuning && !row.isSum) {
+    own.knobs.clear();
+    for (const BiasKnob& knob : knobsOf(bias))
+      for (const auto& [name, value] : row.knobs)
+        if (name == knob.name) own.knobs.push_back({&knob, static_cast<float>(value)});
+  }
+  SetupOptions light = setup;
+  if (setup.light == "all" && !row.isSum) light.light = row.light;
+  return compareCommand(light, own);
+}
+
+}  // namespace gnomon
