@@ -1,11 +1,13 @@
 #include "base/error.h"
 #include "base/image.h"
-#include "cli/common_flags.h"
+#include "cli/method_flags.h"
+#include "cli/scene_flags.h"
 #include "cli/verbs.h"
 #include "judge/filtered_truth.h"
 #include "judge/texel_density.h"
 #include "lab/core/depth_images.h"
 #include "lab/picture/pictures.h"
+#include "planar/planar_map.h"
 
 #include <array>
 #include <cstdio>
@@ -25,8 +27,8 @@ struct RenderFlags {
   std::string show = "beauty";
 };
 
-constexpr std::array kShows = {"beauty", "visibility",   "truth",     "difference", "labels",
-                               "depth",  "second-depth", "layer-gap", "density"};
+constexpr std::array kShows = {"beauty", "visibility",   "truth",     "difference",   "labels",
+                               "depth",  "second-depth", "layer-gap", "texel-density"};
 
 struct Picture {
   Image8 png;
@@ -55,12 +57,11 @@ Picture renderPicture(const Session& session, const CompareOptions& options, con
   const int side = mapSideOf(options, parameterization);
   const FittedMap fitted = fitMap(session, parameterization, exact, side, options.mapOptions).fitted;
   if (!fitted.note.empty()) std::fprintf(stderr, "gnomon: %s\n", fitted.note.c_str());
-  if (show == "density") {
+  if (show == "texel-density") {
     const std::vector<float> densities = texelDensities(fitted, exact.receivers);
-    const MapOptions& how = options.mapOptions;
     const std::string title =
         fmt::format("{}, {} x {} x {} texels, fit {}, warp {}", parameterization.name(), fitted.map.layerCount, side,
-                    side, windowFitName(how.fit), warpName(how.warp));
+                    side, options.mapOptions.text(kWindowFit), options.mapOptions.text(kWarp));
     return {densityPicture(exact.receivers, densities, title), oneChannel(session, densities), {"texels_per_m2"}};
   }
   const bool layers = show == "second-depth" || show == "layer-gap";
@@ -111,20 +112,23 @@ int runRender(const RenderFlags& flags) {
   return 0;
 }
 
-}  // namespace
-
-Run addRenderVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
-  CLI::App* verb = app.add_subcommand("render", "one picture of one configuration, PNG or EXR");
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "adaptive");
   verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")->required();
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
-                   "layer-gap or density (texels per square metre)")
+                   "layer-gap or texel-density (texels per square metre)")
       ->check(CLI::IsMember(std::vector<std::string>(kShows.begin(), kShows.end())))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };
+}
+
+}  // namespace
+
+Verb renderVerb() {
+  return {.name = "render", .sentence = "one picture of one configuration, PNG or EXR", .add = add};
 }
 
 }  // namespace gnomon

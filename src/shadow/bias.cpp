@@ -146,6 +146,10 @@ constexpr std::array<const char*, 3> kEpsilonAtNames = {"fragment", "occluder", 
 
 }  // namespace
 
+std::string knobFlag(const BiasMethod& method, const BiasKnob& knob) {
+  return fmt::format("--{}-{}", method.name, knob.name);
+}
+
 const std::vector<BiasKnob>& knobsOf(const BiasMethod& method) {
   return method.hasEpsilon ? findBias("adaptive").knobs : method.knobs;
 }

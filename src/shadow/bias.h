@@ -27,6 +27,9 @@ struct BiasKnob {
   float searchLower = 0.0f, searchUpper = 0.0f;
 };
 
+struct BiasMethod;
+std::string knobFlag(const BiasMethod& method, const BiasKnob& knob);  // "--constant-offset"
+
 // What a map must hold for a method.
 enum class MapContent {
   OneLayer,   // the nearest depth

@@ -110,7 +110,7 @@ TEST(Compare, ResultsFollowTheSchema) {
 }
 
 TEST(Compare, TheTableHasTheBestFirst) {
-  const Outcome outcome = run("slope", "spot");
+  const Outcome outcome = run("tilted-planes", "spot");
   const std::vector<Row> rows = ranked(outcome.comparison.rows);
   for (size_t i = 1; i < rows.size(); ++i) EXPECT_LE(rows[i - 1].biasError(), rows[i].biasError());
   EXPECT_EQ(rows.back().bias, "none");
@@ -123,7 +123,7 @@ TEST(Compare, NoPictureHasANanOrAnInfinity) {
     Passes passes(session.device(), session.view());
     for (const Parameterization* map : parameterizations()) {
       const Exact exact = computeExact(session, *map);
-      const Fit fit = fitMap(session, *map, exact, 64, {.volumeSize = {.alpha = 64, .theta = 64, .phi = 128}});
+      const Fit fit = fitMap(session, *map, exact, 64, {kVolumeSize({.alpha = 64, .theta = 64, .phi = 128})});
       // Those that divide, move the receiver, or read more than one depth.
       for (const char* name : {"constant", "normal-offset", "receiver-plane", "dual", "adaptive-ehm"}) {
         const BiasMethod& bias = findBias(name);
@@ -170,10 +170,9 @@ TEST(ResultsJson, SaysOfAPointLightsMapWhatIsNotDefault) {
     const Json rows = Json::parse(resultsJson(session, setup, compare(session, options), "gnomon compare")).at("rows");
     return std::pair(rows[0].at("params"), rows[1].at("params"));
   };
-  const auto [cube, paraboloid] = paramsOf({.cubeDepth = CubeDepth::Radial,
-                                            .cubePasses = LayerPasses::Each,
-                                            .paraboloidRaster = ParaboloidRaster::Vertex,
-                                            .paraboloidAxisW = glm::dvec3(0.0, 0.6, 0.8)});
+  const auto [cube, paraboloid] =
+      paramsOf({kCubeDepth(CubeDepth::Radial), kCubePasses(LayerPasses::Each),
+                kParaboloidRaster(ParaboloidRaster::Vertex), kParaboloidAxisW(glm::dvec3(0.0, 0.6, 0.8))});
   EXPECT_EQ(cube.at("cube_depth"), "radial");
   EXPECT_EQ(cube.at("cube_passes"), "six");
   EXPECT_FALSE(cube.contains("paraboloid_raster"));

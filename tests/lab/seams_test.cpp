@@ -126,7 +126,7 @@ TEST_P(SeamsTest, ShowNoMoreErrorThanElsewhere) {
     if (!std::filesystem::exists(scene)) GTEST_SKIP() << "skipped: " << scene << " is not here";
   }
   Seams seams(scene);
-  const Fit through = seams.fit("paraboloid", 887, {.paraboloidAxisW = seams.axisThroughTheMiddle()});
+  const Fit through = seams.fit("paraboloid", 887, {kParaboloidAxisW(seams.axisThroughTheMiddle())});
   const Fit away = seams.fit("paraboloid", 887, {});
   const Fit cube = seams.fit("cube", 512, {});
   for (const char* bias : {"adaptive", "dual"}) {

@@ -37,7 +37,7 @@ class AxisParaboloid final : public Parameterization {
                                              .receiversW = input.receiversW,
                                              .side = input.side,
                                              .camera = input.camera,
-                                             .options = {.paraboloidAxisW = axisW_}});
+                                             .options = {kParaboloidAxisW(axisW_)}});
   }
 
  private:
@@ -81,7 +81,7 @@ const Parameterization* const kMaps[] = {&cubeParameterization(), &paraboloidPar
 
 TEST_F(VisibleOmni, OnSlopeNoneHasPlentyOfAcneAndAdaptiveNone) {
   for (const Parameterization* map : kMaps) {
-    const test::Rendered r = test::render(device(), "slope", *map, 512, 512, CullMode::Solids);
+    const test::Rendered r = test::render(device(), "tilted-planes", *map, 512, 512, CullMode::Solids);
     const Scored none = score(r, findBias("none"));
     EXPECT_GT(none.labels.count(Label::Acne), r.receivers.scored / 5) << map->name();
     const Scored adaptive = score(r, findBias("adaptive"));

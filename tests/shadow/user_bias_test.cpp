@@ -119,7 +119,7 @@ TEST_F(UserBiasTest, WhatDoesNotCompileNamesFileAndLine) {
 
 TEST_F(UserBiasTest, TheSampleKeepsPlanesClean) {
   const auto sample = loadUserBias(std::filesystem::path(GNOMON_TEST_DIR) / "../../samples/my_bias.glsl");
-  const test::Rendered r = test::render(device(), "slope", spotParameterization(), 256, 256, CullMode::Solids);
+  const test::Rendered r = test::render(device(), "tilted-planes", spotParameterization(), 256, 256, CullMode::Solids);
   glsl::BiasParams params = defaultBiasParams(r.fitted.map.sceneScale);
   params.userKnob = sample->method.knobs.front().defaultValue;
   const std::vector<float> seen = visibility(r, sample->method, params);

@@ -58,7 +58,7 @@ class VisibilityPassTest : public gpu::GpuTest {
 
 TEST_F(VisibilityPassTest, OnSlopeNoneHasPlentyOfAcneAndAdaptiveNone) {
   for (const Parameterization* map : planarParameterizations()) {
-    const test::Rendered r = test::render(device(), "slope", *map, 512, 512, CullMode::Solids);
+    const test::Rendered r = test::render(device(), "tilted-planes", *map, 512, 512, CullMode::Solids);
     const Scored none = score(r, findBias("none"));
     EXPECT_GT(none.labels.count(Label::Acne), none.scored / 5) << map->name();
     const Scored adaptive = score(r, findBias("adaptive"));

@@ -30,7 +30,7 @@ VolumeWorld buildVolume(const gpu::Device& device, const VolumeSetup& setup) {
        .receiversW = scored,
        .side = setup.cubeSide,
        .camera = w.view,
-       .options = {.volumeSize = setup.size, .volumeSource = setup.source, .volumeFit = setup.fit}});
+       .options = {kVolumeSize(setup.size), kVolumeSource(setup.source), kVolumeFit(setup.fit)}});
   w.volume = std::make_unique<ShadowVolume>(device, FittedVolume{.grid = w.columns.map.epipolar, .columns = w.columns},
                                             w.columns.lookedUpIn);
   const MapRenderer maps(device);

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "judge/filtered_truth.h"
+#include "lab/compare/compare_command.h"
 #include "lab/compare/robustness.h"
 #include "lab/compare/row_pictures.h"
 #include "lab/compare/tune.h"
@@ -168,10 +169,9 @@ class MapComparison {
       row.mapSide = map.fitted.map.side;
       row.mapRows = map.fitted.map.rows;
       row.mapSize = mapSizeText(map.fitted);
-      row.mapParams = mapParams(map.fitted, options_.mapOptions);
+      row.mapParams = mapParams(parameterization_, map.fitted, options_.mapOptions);
       row.layers = map.fitted.map.layerCount;
       row.cull = cullModeName(options_.cull);
-      row.mapOptions = options_.mapOptions;
       row.filter = filter->name;
       describe(row, entry, judged);
       row.rmse = rmseOf(exact_, visibility, truth.visibility);
@@ -347,6 +347,7 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   }
   if (comparison.rows.empty()) computeExact(session, *options.maps.front());  // says why
   if (severalLights) addSums(comparison);
+  for (Row& row : comparison.rows) row.command = rowCommand(session.setup(), options, row);
   return comparison;
 }
 

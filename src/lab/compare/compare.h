@@ -57,14 +57,13 @@ struct Row {
   bool isSum = false;            // of the same method's rows over all lights: counts and times added, no pictures
   int mapSide = 0, mapRows = 0;  // texels along u and v of a layer
   int layers = 0;
-  std::string mapSize;                                         // mapSizeText
-  std::vector<std::pair<std::string, std::string>> mapParams;  // of its own, beside mapOptions
+  std::string mapSize;  // mapSizeText
+  std::vector<MapParam> mapParams;
   std::string bias;
   std::vector<std::pair<std::string, double>> knobs;  // name -> value in its unit
   std::vector<std::string> knobUnits;
   std::string content;  // "one layer", "two layers", "back faces"
   std::string cull;
-  MapOptions mapOptions;  // as asked for: a spot has one cascade all the same
   std::string epsilonAt;  // empty where the method has none
   std::string filter = "none";
   size_t scored = 0, agree = 0, acne = 0, leak = 0, edgeShadow = 0, edgeLight = 0, uncovered = 0;
@@ -78,7 +77,8 @@ struct Row {
   std::optional<double> flip;
   std::optional<Tuning> tuning;  // of rows whose knobs were searched
   std::optional<WorstPlace> worstAcne, worstLeak;
-  Pictures pictures;  // labels, visibility, beauty, difference, data
+  std::string command;  // that makes it again
+  Pictures pictures;    // labels, visibility, beauty, difference, data
 };
 
 // What was exact for one map's light.

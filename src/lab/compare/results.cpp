@@ -101,15 +101,16 @@ Json toJson(const MapSummary& map) {
 
 Json toJson(const Row& row, double gbufferMs) {
   Json params = Json::object();
-  for (const auto& [name, value] : row.knobs) params[name] = shortest(static_cast<float>(value));
+  Json units = Json::object();
+  for (size_t i = 0; i < row.knobs.size(); ++i) {
+    params[row.knobs[i].first] = shortest(static_cast<float>(row.knobs[i].second));
+    units[row.knobs[i].first] = row.knobUnits[i];
+  }
   if (!row.epsilonAt.empty()) params["epsilon_at"] = row.epsilonAt;
   params["map_content"] = row.content;
   params["cull"] = row.cull;
-  params["fit"] = windowFitName(row.mapOptions.fit);
-  params["snap"] = snaps(row.mapOptions) ? "on" : "off";
-  params["warp"] = warpName(row.mapOptions.warp);
-  params["cascades"] = row.mapOptions.cascades;
-  for (const auto& [name, value] : row.mapParams) params[name] = value;
+  for (const MapParam& param : row.mapParams)
+    params[param.name] = param.isNumber ? Json::parse(param.text) : Json(param.text);
   Json json;
   json["map"] = row.map;
   json["light"] = row.light;
@@ -119,6 +120,7 @@ Json toJson(const Row& row, double gbufferMs) {
   json["map_texels"] = static_cast<uint64_t>(row.mapSide) * row.mapRows * row.layers;
   json["bias"] = row.bias;
   json["params"] = params;
+  json["knob_units"] = units;
   json["filter"] = row.filter;
   json["tuned"] = row.tuning.has_value();
   json["scored"] = row.scored;
@@ -139,6 +141,7 @@ Json toJson(const Row& row, double gbufferMs) {
   json["tuning"] = toJson(row.tuning);
   json["worst_acne"] = toJson(row.worstAcne);
   json["worst_leak"] = toJson(row.worstLeak);
+  json["command"] = row.command;
   json["pictures"] = toJson(row.pictures);
   return json;
 }

@@ -72,8 +72,7 @@ Robustness::Robustness(const Session& session, const Exact& exact, const Compare
   if (other.receivers.scored > 0)
     otherCamera_ =
         std::make_unique<Place>(*otherSession_, std::move(other), options, parameterization, side, options.mapOptions);
-  MapOptions halved = options.mapOptions;
-  halved.volumeSize = halvedSize(halved.volumeSize);
+  const MapOptions halved = parameterization.halved(options.mapOptions);
   otherMapSize_ = std::make_unique<Place>(session, exact, options, parameterization, std::max(side / 2, 2), halved);
 }
 

@@ -37,7 +37,7 @@ Pictures writeMapPictures(const Session& session, const Exact& exact, const Draw
   writeDepth("depth", depth.first);
   if (map.fitted.map.layerCount > 1) {
     const std::string path = mapName + "/unfolded.png";
-    writePng(outDir / path, unfoldedPicture(depthPicture(depth.first), map.fitted.map, {64, 48, 64}));
+    writePng(outDir / path, unfoldedPicture(depthPicture(depth.first), map.fitted, {64, 48, 64}));
     pictures.emplace_back("unfolded", path);
   }
   if (depth.second) writeDepth("second_depth", *depth.second);

@@ -33,7 +33,7 @@ MediaRow rowOf(const MediaMethod& method, const FogMethodResult& measured, const
   const bool march = method.integrator == Integrator::March;
   return {.method = method,
           .map = march ? options.marchMap->name() : volumeParameterization().name(),
-          .mapSize = march ? std::to_string(options.mapSide) : volumeSizeName(options.map.volumeSize),
+          .mapSize = march ? std::to_string(options.mapSide) : options.map.text(kVolumeSize),
           .mapMs = measured.mapMs,
           .tableMs = measured.tableMs,
           .integrateMs = measured.integrateMs};

@@ -1,6 +1,7 @@
 #include "lab/fog/fog_report.h"
 
 #include "lab/core/results_head.h"
+#include "vsv/volume_parameterization.h"
 
 #include <algorithm>
 #include <cmath>
@@ -129,9 +130,9 @@ Json referenceJson(const FogResult& result) {
 Json rowJson(const MediaRow& row, const FogOptions& options, const FogResult& result) {
   Json params = {{"map_size", row.mapSize}, {"lights", result.view.lights.size()}};
   if (row.method.integrator != Integrator::March) {
-    params["vsv_source"] = volumeSourceName(options.map.volumeSource);
-    params["vsv_fit"] = volumeFitName(options.map.volumeFit);
-    if (options.map.volumeSource == VolumeSource::Resample) params["cube_size"] = options.mapSide;
+    params["vsv_source"] = options.map.text(kVolumeSource);
+    params["vsv_fit"] = options.map.text(kVolumeFit);
+    if (options.map.get(kVolumeSource) == VolumeSource::Resample) params["cube_size"] = options.mapSide;
   }
   params["cull"] = cullModeName(options.cull);
   return {{"integrator", integratorName(row.method.integrator)},
