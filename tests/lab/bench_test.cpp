@@ -1,5 +1,6 @@
 // The bench: ratios are of one round, and its curves and numbers are all there.
 #include "lab/bench/bench.h"
+#include "vsv/volume_parameterization.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,10 @@
 #include "lab/compare/table.h"
 #include "lab/core/maps.h"
 #include "lab/picture/pictures.h"
+#include "omni/cube_map.h"
+#include "omni/paraboloid_map.h"
 #include "tests/gpu_fixture.h"
+#include "vsv/volume_parameterization.h"
 
 #include <cmath>
 #include <map>

@@ -6,6 +6,7 @@
 #include "lab/compare/results.h"
 #include "lab/core/maps.h"
 #include "lab/picture/pictures.h"
+#include "planar/planar_map.h"
 #include "tests/gpu_fixture.h"
 
 #include <set>

@@ -1,5 +1,6 @@
 // Light shafts run through the lab: their errors, their files, and a reference that is traced once.
 #include "lab/fog/fog.h"
+#include "vsv/volume_parameterization.h"
 
 #include "base/error.h"
 #include "base/file.h"

@@ -4,6 +4,7 @@
 #include "lab/compare/compare.h"
 #include "lab/core/map_set.h"
 #include "lab/core/maps.h"
+#include "omni/paraboloid_map.h"
 
 #include <algorithm>
 #include <array>

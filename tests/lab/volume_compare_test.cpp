@@ -4,6 +4,7 @@
 #include "lab/compare/results.h"
 #include "lab/core/maps.h"
 #include "tests/gpu_fixture.h"
+#include "vsv/volume_parameterization.h"
 
 #include <algorithm>
 #include <set>

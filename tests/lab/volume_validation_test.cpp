@@ -1,6 +1,7 @@
 // A session's volume, validated: sound as it is, reported in full, and unsound where any part says so.
 #include "lab/volume/volume_report.h"
 #include "tests/gpu_fixture.h"
+#include "vsv/volume_parameterization.h"
 
 #include <nlohmann/json.hpp>
 

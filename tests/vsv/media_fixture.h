@@ -4,6 +4,7 @@
 #include "scene/generate.h"
 #include "tests/gpu_fixture.h"
 #include "vsv/media/media_pass.h"
+#include "vsv/volume_parameterization.h"
 #include "vsv/volume_renderer.h"
 
 #include <memory>

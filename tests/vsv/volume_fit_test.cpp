@@ -1,5 +1,6 @@
 // fitVolume: what the camera sees is covered, and little more, wherever the light is.
 #include "base/error.h"
+#include "vsv/volume_parameterization.h"
 #include "vsv_fixture.h"
 
 #include "shared/volume_lookup.glsl"

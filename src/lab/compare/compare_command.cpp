@@ -15,29 +15,16 @@ namespace {
 class Words {
  public:
   explicit Words(std::string first) : line_(std::move(first)) {}
-  void word(const std::string& word) { line_ += " " + shellWord(word); }
-  void flag(const std::string& flag, const std::string& value) {
-    word(flag);
+  void word(const std::string& text) { line_ += " " + shellWord(text); }
+  void flag(const std::string& name, const std::string& value) {
+    word(name);
     word(value);
-  }
-  void flagUnless(const std::string& usual, const std::string& name, const std::string& value) {
-    if (value != usual) flag(name, value);
   }
   const std::string& line() const { return line_; }
 
  private:
   std::string line_;
 };
-
-void addSetup(Words& words, const SetupOptions& setup) {
-  const SetupOptions defaults;
-  words.word(setup.scene);
-  words.flagUnless("", "--light", setup.light);
-  words.flagUnless("", "--camera", setup.camera);
-  words.flagUnless("", "--direction", setup.direction);
-  if (setup.coneDegrees) words.flag("--cone", fmt::format("{}", *setup.coneDegrees));
-  words.flagUnless(defaults.size, "--size", setup.size);
-}
 
 template <typename T>
 std::string namesOf(const std::vector<T>& things, const auto& nameOf) {
@@ -77,7 +64,8 @@ void addBiases(Words& words, const CompareOptions& options) {
       words.flag(flagOf(*value.knob), fmt::format("{}", value.value));
   if (options.epsilonAt != CompareOptions().epsilonAt) words.flag("--epsilon-at", epsilonAtName(options.epsilonAt));
   if (options.tune) words.word("--tune");
-  words.flagUnless("none", "--filters", namesOf(options.filters, [](const Filter* filter) { return filter->name; }));
+  const std::string filters = namesOf(options.filters, [](const Filter* filter) { return filter->name; });
+  if (filters != "none") words.flag("--filters", filters);
 }
 
 // The one of this name, which must be there.
@@ -92,7 +80,7 @@ std::vector<T> only(const std::vector<T>& things, const std::string& name, const
 
 std::string compareCommand(const SetupOptions& setup, const CompareOptions& options) {
   Words words("gnomon compare");
-  addSetup(words, setup);
+  for (const std::string& word : setupWords(setup)) words.word(word);
   addMaps(words, options);
   addBiases(words, options);
   return words.line();

@@ -124,6 +124,20 @@ Camera parseCamera(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::string> setupWords(const SetupOptions& options) {
+  std::vector<std::string> words = {options.scene};
+  const auto add = [&](const char* flag, const std::string& value, const std::string& usual) {
+    if (value != usual) words.insert(words.end(), {flag, value});
+  };
+  const SetupOptions defaults;
+  add("--light", options.light, defaults.light);
+  add("--camera", options.camera, defaults.camera);
+  add("--direction", options.direction, defaults.direction);
+  if (options.coneDegrees) add("--cone", fmt::format("{}", *options.coneDegrees), "");
+  add("--size", options.size, defaults.size);
+  return words;
+}
+
 PictureSize parseSize(const std::string& text) {
   PictureSize size;
   char by = 0, rest = 0;

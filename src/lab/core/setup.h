@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace gnomon {
 
@@ -18,6 +19,9 @@ struct SetupOptions {
   std::optional<double> coneDegrees;  // full angle of a spot
   std::string size = "1024";          // N or WxH, pixels
 };
+
+// The words of a command line that choose the same: the scene, and flags for what is not at its default.
+std::vector<std::string> setupWords(const SetupOptions& options);
 
 struct PictureSize {
   int width = 0;
