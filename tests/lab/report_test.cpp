@@ -301,7 +301,7 @@ TEST_F(ReportTest, NamesTheFieldThatIsWrong) {
     EXPECT_EQ(line.find('\n'), std::string::npos);
     return line;
   };
-  EXPECT_NE(after([](Json& j) { j["schema"] = 4; }).find("has schema 4; this gnomon reads 1 to 3"), std::string::npos);
+  EXPECT_NE(after([](Json& j) { j["schema"] = 5; }).find("has schema 5; this gnomon reads 1 to 4"), std::string::npos);
   EXPECT_NE(after([](Json& j) { j.erase("schema"); }).find("schema is missing"), std::string::npos);
   EXPECT_NE(after([](Json& j) { j = 5; }).find("must be an object"), std::string::npos);
   EXPECT_NE(after([](Json& j) { j["rows"][2].erase("bias"); }).find("rows[2].bias is missing"), std::string::npos);

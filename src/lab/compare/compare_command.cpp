@@ -90,7 +90,8 @@ std::string rowCommand(const SetupOptions& setup, const CompareOptions& options,
   CompareOptions own = options;
   own.maps = only(options.maps, row.map, [](const Parameterization* map) { return map->name(); });
   own.biases = only(options.biases, row.bias, [](const BiasMethod* bias) { return bias->name; });
-  own.filters = only(options.filters, row.filter, [](const Filter* filter) { return filter->name; });
+  if (!row.flip || row.filter != "none")
+    own.filters = only(options.filters, row.filter, [](const Filter* filter) { return filter->name; });
   const BiasMethod& bias = *own.biases.front();
   std::erase_if(own.userBiases, [&](const auto& user) { return &user->method != &bias; });
   own.tune = row.tuning.has_value() && row.isSum;
