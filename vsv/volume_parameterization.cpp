@@ -1,8 +1,9 @@
 #include "vsv/volume_parameterization.h"
 
+#include "base/check.h"
 #include "base/error.h"
 #include "omni/cube_map.h"
-#include "vsv/volume_visibility.h"
+#include "vsv/shadow_volume.h"
 
 #include <charconv>
 
@@ -59,34 +60,42 @@ class VolumeParameterization final : public Parameterization {
   const char* sentence() const override { return "a voxelized shadow volume in epipolar coordinates"; }
   int layerCount(const MapOptions&) const override { return 1; }
 
-  Takes takes(LightType type) const override { return type == LightType::Directional ? Takes::No : Takes::Yes; }
+  LightSupport supportsLight(LightType type) const override {
+    return type == LightType::Directional ? LightSupport::No : LightSupport::Yes;
+  }
 
   LightModel lightModel(const Light& light, const glm::dvec3&) const override {
     return {.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};
   }
 
-  bool answers(const BiasMethod& method) const override { return volumeAnswers(method); }
-  bool takesFilters() const override { return false; }
+  bool supportsBias(const BiasMethod& method) const override { return volumeSupportsBias(method); }
+  bool supportsFilters() const override { return false; }
 
   FittedMap fit(const FitInput& input) const override {
     const MapOptions& options = input.options;
-    FittedMap columns = fitVolume(input, options.get(kVolumeSize), options.get(kVolumeFit)).columns;
+    FittedMap columns = fitVolume(input, options.get(kVolumeSize), options.get(kVolumeFit));
     if (options.get(kVolumeSource) == VolumeSource::Resample) {
       FitInput cube = input;
       // All of the scene casts into the whole sphere, and not only what stands before the camera's surfaces.
       if (options.get(kVolumeFit) == VolumeFit::Full) cube.receiversW = {};
-      columns.lookedUpIn = std::make_shared<const FittedMap>(cubeParameterization().fit(cube));
+      columns.occluderSource = std::make_shared<const FittedMap>(cubeParameterization().fit(cube));
     }
     return columns;
+  }
+
+  std::unique_ptr<Occluders> createOccluders(const gpu::Device& device, const FittedMap& fitted,
+                                             MapContent content) const override {
+    GNOMON_CHECK(content == MapContent::OneLayer);
+    return std::make_unique<ShadowVolume>(device, fitted);
   }
 
   std::vector<const MapOption*> options() const override { return {&kVolumeSize, &kVolumeSource, &kVolumeFit}; }
   MapOptions halved(const MapOptions& given) const override {
     return given.with(kVolumeSize(halvedSize(given.get(kVolumeSize))));
   }
-  std::vector<MapParam> fitParams(const FittedMap& fitted) const override {
-    if (!fitted.lookedUpIn) return {};
-    return {{.name = "cube_size", .text = fmt::format("{}", fitted.lookedUpIn->map.side)}};
+  std::vector<std::pair<std::string, std::string>> fitParams(const FittedMap& fitted) const override {
+    if (!fitted.occluderSource) return {};
+    return {{"cube_size", fmt::format("{}", fitted.occluderSource->map.side)}};
   }
 };
 

@@ -40,7 +40,7 @@ int runCompare(const CompareFlags& flags) {
 
   const Session session = openSession(flags.scene);
   const Comparison comparison = compare(session, options);
-  const std::string json = resultsJson(session, flags.scene.setup, comparison, commandLine());
+  const std::string json = resultsJson(session, comparison, commandLine());
   if (!flags.out.empty()) {
     writeTextFile(options.outDir / "results.json", json);
     writeTextFile(options.outDir / "report.html", reportHtml(options.outDir));
@@ -68,7 +68,8 @@ Run add(CLI::App* verb) {
   verb->add_option("-o,--out", flags->out, "folder for report.html, pictures and results.json; none: the table only");
   verb->add_option("--json", flags->json, "write results.json here");
   verb->add_option("--fail-if", flags->failIf,
-                   "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; may be repeated");
+                   "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; metrics are " +
+                       thresholdMetrics() + "; may be repeated");
   verb->add_flag("--tune", flags->tune,
                  "each bias with a knob also at the value with the least acne + leak here, and how good that value is "
                  "from another camera and on a map of half the size");

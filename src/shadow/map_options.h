@@ -196,10 +196,4 @@ class MapOptions {
   std::vector<ChosenOption> choices_;
 };
 
-// As results.json says it.
-struct MapParam {
-  std::string name, text;
-  bool isNumber = false;
-};
-
 }  // namespace gnomon

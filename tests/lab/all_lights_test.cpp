@@ -44,8 +44,7 @@ TEST(AllLights, SumsAddUpAndThePageNamesEachLight) {
     EXPECT_EQ(sum.agree, agree);
     EXPECT_EQ(sum.scored, sum.agree + sum.acne + sum.leak + sum.edgeShadow + sum.edgeLight + sum.uncovered);
   }
-  const std::string json =
-      resultsJson(session, setup, comparison, "gnomon compare atrium --light all --maps cube,paraboloid");
+  const std::string json = resultsJson(session, comparison, "gnomon compare atrium --light all --maps cube,paraboloid");
   writeTextFile(folder.path() / "results.json", json);
   EXPECT_EQ(nlohmann::json::parse(json).at("maps").size(), 4u);
   const std::string page = reportHtml(folder.path());

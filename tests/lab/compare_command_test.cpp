@@ -85,12 +85,12 @@ TEST(RowCommand, ATunedRowHasItsKnobAndATunedSumIsTunedAgain) {
   row.map = "spot";
   row.bias = "adaptive-clamped";
   row.tuning = Tuning{.knob = "k", .value = 0.0125f, .unit = ""};
-  row.knobs = {{"k", 0.0125f}};
+  row.params = {{"k", 0.0125}};
   EXPECT_EQ(rowCommand({.scene = "atrium"}, options, row),
             "gnomon compare atrium --maps spot --biases adaptive-clamped --adaptive-k 0.0125");
   row.isSum = true;
   row.light = "all";
-  row.knobs.clear();
+  row.params.clear();
   EXPECT_EQ(rowCommand({.scene = "atrium", .light = "all"}, options, row),
             "gnomon compare atrium --light all --maps spot --biases adaptive-clamped --tune");
   row.tuning.reset();

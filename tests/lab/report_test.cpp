@@ -225,7 +225,7 @@ TEST_F(ReportTest, TellsTuningPlacesAndTheCommandOfARow) {
 TEST_F(ReportTest, KnobsHaveTheUnitThatTheFileNames) {
   for (auto& row : json_["rows"]) row["tuning"] = nullptr;
   json_["rows"][1]["params"] = {{"offset", 0.25}, {"taps", 4}, {"texels", 1.5}};
-  json_["rows"][1]["knob_units"] = {{"offset", "m"}, {"texels", "texels"}};
+  json_["rows"][1]["units"] = {{"offset", "m"}, {"texels", "texels"}};
   const std::string html = page();
   EXPECT_NE(html.find("offset\u00a00.25\u00a0m, texels\u00a01.5<"), std::string::npos);  // taps is none
 }

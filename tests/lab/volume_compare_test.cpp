@@ -36,8 +36,8 @@ std::string runTwiceEqual(const Session& session, const SetupOptions& setup, con
     Comparison comparison = compare(session, options);
     comparison.gbufferMs = 0.0;
     for (TruthSummary& truth : comparison.truths) truth.receiversAndTraceMs = truth.fitMs = 0.0;
-    for (Row& row : comparison.rows) row.buildMs = row.shadeMs = 0.0;
-    const std::string json = resultsJson(session, setup, comparison, "gnomon compare");
+    for (Row& row : comparison.rows) row.buildMs = row.shadeMs = row.frameMs = 0.0;
+    const std::string json = resultsJson(session, comparison, "gnomon compare");
     if (i == 0) first = json;
     EXPECT_EQ(json, first);
   }
@@ -106,7 +106,7 @@ TEST(VolumeCompare, KnobsAreTunedAndJudgedAtHalfTheSize) {
   ASSERT_EQ(comparison.rows.size(), 2u);
   const Row& tuned = comparison.rows[1];
   ASSERT_TRUE(tuned.tuning && tuned.tuning->otherMapSize);
-  EXPECT_EQ(tuned.tuning->otherMapSide, 96);  // columns along theta: half of 192
+  EXPECT_EQ(tuned.tuning->otherMapSize->mapSize, 96);  // columns along theta: half of 192
   EXPECT_LE(tuned.biasError(), comparison.rows[0].biasError());
   EXPECT_LT(tuned.biasError(), 0.05);
 }

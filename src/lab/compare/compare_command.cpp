@@ -98,8 +98,9 @@ std::string rowCommand(const SetupOptions& setup, const CompareOptions& options,
   if (row.tuning && !row.isSum) {
     own.knobs.clear();
     for (const BiasKnob& knob : knobsOf(bias))
-      for (const auto& [name, value] : row.knobs)
-        if (name == knob.name) own.knobs.push_back({&knob, static_cast<float>(value)});
+      for (const Param& param : row.params)
+        if (param.name == knob.name && row.isKnob(param))
+          own.knobs.push_back({&knob, static_cast<float>(std::get<double>(param.value))});
   }
   SetupOptions light = setup;
   if (setup.light == "all" && !row.isSum) light.light = row.light;

@@ -4,10 +4,14 @@
 
 namespace gnomon {
 
-std::vector<MapParam> mapParams(const Parameterization& map, const FittedMap& fitted, const MapOptions& options) {
-  std::vector<MapParam> params;
+Params mapParams(const Parameterization& map, const FittedMap& fitted, const MapOptions& options) {
+  Params params;
   const auto tell = [&](const MapOption& option) {
-    params.push_back({.name = option.name(), .text = option.told(options), .isNumber = option.isNumber()});
+    const std::string text = option.told(options);
+    if (option.isNumber())
+      params.push_back({option.name(), int64_t{std::stoll(text)}});
+    else
+      params.push_back({option.name(), text});
   };
   for (const MapOption* option : allMapOptions())
     if (option->results() == InResults::EveryRow) tell(*option);
@@ -15,7 +19,7 @@ std::vector<MapParam> mapParams(const Parameterization& map, const FittedMap& fi
     if (option->results() == InResults::OwnRows ||
         (option->results() == InResults::WhereChanged && options.find(*option) != nullptr))
       tell(*option);
-  for (const MapParam& param : map.fitParams(fitted)) params.push_back(param);
+  for (const auto& [name, text] : map.fitParams(fitted)) params.push_back({name, text});
   return params;
 }
 

@@ -1,0 +1,110 @@
+#pragma once
+// What results.json holds of gnomon fog.
+
+#include "lab/results/head.h"
+#include "lab/results/light_facts.h"
+#include "lab/results/media_row.h"
+
+namespace gnomon {
+
+struct DensityFacts {
+  std::string grid;
+  glm::vec3 lower{0.0f}, upper{0.0f};
+  float voxelMetres = 0.0f;
+  size_t voxels = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(field("grid", &DensityFacts::grid, {.says = "its name"}),
+                      field("lower", &DensityFacts::lower, {.unit = "metres", .says = "corner of its bounds"}),
+                      field("upper", &DensityFacts::upper, {.unit = "metres", .says = "corner of its bounds"}),
+                      field("voxel_metres", &DensityFacts::voxelMetres, {.unit = "metres", .says = "a voxel's side"}),
+                      field("voxels", &DensityFacts::voxels, {.says = "those that are active"}));
+  }
+};
+
+struct MediumFacts {
+  glm::vec3 sigmaS{0.0f}, sigmaA{0.0f};
+  float g = 0.0f, reach = 0.0f;
+  std::optional<DensityFacts> density;
+
+  static constexpr auto fields() {
+    return std::tuple(
+        field("sigma_s", &MediumFacts::sigmaS, {.unit = "1/m", .says = "scattering, rgb, at density 1"}),
+        field("sigma_a", &MediumFacts::sigmaA, {.unit = "1/m", .says = "absorption, rgb, at density 1"}),
+        field("g", &MediumFacts::g, {.says = "of the phase function"}),
+        field("reach", &MediumFacts::reach, {.unit = "metres", .says = "where view rays end at the latest"}),
+        field("density", &MediumFacts::density, {.says = "null where the medium is homogeneous"}));
+  }
+};
+
+struct ReferenceFacts {
+  double mean = 0.0, bound = 0.0, worstChange = 0.0;
+  size_t atLimit = 0;
+  int doublings = 0;
+  uint64_t rays = 0;
+  double traceMs = 0.0;
+  bool fromCache = false;
+  Pictures pictures;
+
+  static constexpr auto fields() {
+    return std::tuple(
+        field("mean", &ReferenceFacts::mean, {.unit = "cd/m^2"}),
+        field("bound", &ReferenceFacts::bound,
+              {.says = "that the last doubling of a pixel's samples had to stay below, as a share of the mean"}),
+        field("worst_change", &ReferenceFacts::worstChange, {.says = "by the last doubling, as a share of the mean"}),
+        field("pixels_at_limit", &ReferenceFacts::atLimit, {.unit = "pixels", .says = "that ran out of doublings"}),
+        field("doublings", &ReferenceFacts::doublings, {.says = "the most of any pixel"}),
+        field("rays", &ReferenceFacts::rays, {.says = "of all pixels"}),
+        field("trace_ms", &ReferenceFacts::traceMs, {.unit = "ms", .says = "wall clock"}),
+        field("from_cache", &ReferenceFacts::fromCache,
+              {.says = "whether it is kept from an earlier run", .absent = Absent::Earlier}),
+        field("pictures", &ReferenceFacts::pictures, {.says = "paths, below"}));
+  }
+};
+
+struct FramesFacts {
+  int count = 0;
+  std::string moves;
+  glm::vec3 offset{0.0f};
+  std::string note;
+
+  static constexpr auto fields() {
+    return std::tuple(field("count", &FramesFacts::count, {.says = "of `--frames`"}),
+                      field("moves", &FramesFacts::moves, {.says = "light or camera"}),
+                      field("offset", &FramesFacts::offset, {.unit = "metres", .says = "from the first to the last"}),
+                      field("note", &FramesFacts::note, {.says = "where the video is, or why there is none"}));
+  }
+};
+
+struct MediaResults : ResultsHead {
+  std::vector<LightFacts> lights;
+  MediumFacts medium;
+  double exposure = 1.0;
+  std::optional<ReferenceFacts> reference;
+  std::optional<WorstPlace> worst;
+  std::optional<FramesFacts> frames;
+  std::vector<MediaRow> rows;
+  std::vector<EqualTerms> equalTerms;
+
+  std::vector<Row> noRows() const { return {}; }
+
+  static constexpr auto fields() {
+    return std::tuple_cat(
+        ResultsHead::fields(),
+        std::tuple(
+            field("lights", &MediaResults::lights), field("medium", &MediaResults::medium),
+            field("exposure", &MediaResults::exposure, {.says = "the factor of the PNGs", .absent = Absent::Earlier}),
+            field("reference", &MediaResults::reference, {.says = "null without `--truth`"}),
+            field("worst_place", &MediaResults::worst,
+                  {.says = "null, or the square where the first row errs most for the brightness there"}),
+            field("frames", &MediaResults::frames, {.says = "null, or the motion of `--frames`"}),
+            field("rows", &MediaResults::noRows, {.says = "of `gnomon compare`: empty"}),
+            field("maps", &MediaResults::noRows, {.says = "of `gnomon compare`: empty"}),
+            field("truths", &MediaResults::noRows, {.says = "of `gnomon compare`: empty"}),
+            field("media", &MediaResults::rows, {.says = "one an integrator and number of steps"}),
+            field("equal_terms", &MediaResults::equalTerms,
+                  {.says = "how each other row stands against the baseline"})));
+  }
+};
+
+}  // namespace gnomon

@@ -1,0 +1,195 @@
+#pragma once
+// A row of a comparison: one method on one map through one filter, against the exact shadow.
+
+#include "lab/results/schema.h"
+
+#include <cstdint>
+#include <variant>
+
+namespace gnomon {
+
+// How good a tuned value is where it was not tuned.
+struct Transfer {
+  double biasError = 0.0, bestBiasError = 0.0;
+  float bestValue = 0.0f;
+
+  static constexpr auto fields() {
+    return std::tuple(field("bias_error", &Transfer::biasError, {.says = "with the tuned value"}),
+                      field("best_bias_error", &Transfer::bestBiasError, {.says = "with the value tuned there"}),
+                      field("best_value", &Transfer::bestValue, {.says = "the value tuned there"}));
+  }
+};
+
+struct CameraTransfer : Transfer {
+  std::string camera;
+
+  static constexpr auto fields() {
+    return std::tuple_cat(std::tuple(field("camera", &CameraTransfer::camera, {.says = "its name"})),
+                          Transfer::fields());
+  }
+};
+
+struct MapSizeTransfer : Transfer {
+  int mapSize = 0;
+
+  static constexpr auto fields() {
+    return std::tuple_cat(
+        std::tuple(field("map_size", &MapSizeTransfer::mapSize, {.unit = "texels", .says = "a side of a layer"})),
+        Transfer::fields());
+  }
+};
+
+struct Tuning {
+  std::string knob;
+  float value = 0.0f;
+  std::string unit;
+  int evaluations = 0;
+  std::optional<CameraTransfer> otherCamera;
+  std::optional<MapSizeTransfer> otherMapSize;
+
+  static constexpr auto fields() {
+    return std::tuple(
+        field("knob", &Tuning::knob, {.says = "the method's first"}),
+        field("value", &Tuning::value, {.says = "that errs least here"}),
+        field("unit", &Tuning::unit, {.says = "of the value", .absent = Absent::Earlier}),
+        field("evaluations", &Tuning::evaluations, {.says = "how many values were tried"}),
+        field("other_camera", &Tuning::otherCamera, {.says = "the value seen by a camera carried round; or null"}),
+        field("other_map_size", &Tuning::otherMapSize, {.says = "the value on a map of half the size; or null"}));
+  }
+};
+
+// A knob of a bias, or what else sets the map and the method up. Knobs are numbers with a point.
+struct Param {
+  std::string name;
+  std::variant<std::string, int64_t, double> value;
+
+  bool operator==(const Param&) const = default;
+};
+using Params = std::vector<Param>;
+
+std::string paramText(const Param& param);                             // "0.0125", "solids"
+std::string paramText(const Params& params, const std::string& name);  // empty where there is none
+
+// Counts are of the unfiltered map, and add up to `scored`.
+struct Row {
+  std::string map, light;
+  bool isSum = false;
+  int mapSide = 0, layers = 0;
+  size_t mapTexels = 0;
+  std::string mapDimensions;
+  std::string bias;
+  Params params;
+  NamedTexts units;
+  std::string filter = "none";
+  size_t scored = 0, agree = 0, acne = 0, leak = 0, edgeShadow = 0, edgeLight = 0, uncovered = 0;
+  size_t grazing = 0, edgeOn = 0;
+  double rmse = 0.0;
+  std::optional<double> flip;
+  double buildMs = 0.0, shadeMs = 0.0, frameMs = 0.0;
+  std::optional<Tuning> tuning;
+  std::optional<WorstPlace> worstAcne, worstLeak;
+  std::string command;
+  Pictures pictures;
+
+  bool isTuned() const { return tuning.has_value(); }
+  size_t edge() const { return edgeShadow + edgeLight; }
+  size_t wrong() const { return scored - agree; }
+  double biasError() const { return shareOf(acne + leak); }
+  double shareOf(size_t pixels) const;  // of the scored ones
+
+  bool isKnob(const Param& param) const;
+  std::string unitOf(const std::string& knob) const;  // empty where it has none
+
+  // Of the scored pixels, those with one label.
+  static constexpr auto labelCount(const char* name, size_t Row::*count, const char* title, TableColumn table,
+                                   Hides hides = Hides::Never) {
+    return field(name, count,
+                 {.unit = "pixels",
+                  .says = "with this label",
+                  .shown = Shown::Count,
+                  .title = title,
+                  .table = table,
+                  .hides = hides,
+                  .metric = title[0] != 0});
+  }
+
+  static constexpr auto fields() {
+    return std::tuple(
+        field("map", &Row::map, {.says = "parameterization"}),
+        field("light", &Row::light, {.says = "its name; `all` in a sum", .absent = Absent::Earlier}),
+        field("sum", &Row::isSum,
+              {.says = "whether counts and times are those of all lights together (`--light all`)",
+               .absent = Absent::Earlier}),
+        field("map_size", &Row::mapSide, {.unit = "texels", .says = "a side of a layer"}),
+        field("layers", &Row::layers, {.says = "faces, halves or cascades"}),
+        field("map_texels", &Row::mapTexels, {.says = "of all layers, one depth each"}),
+        field("map_dimensions", &Row::mapDimensions,
+              {.says = "`map_size`, or a volume's voxels: alpha x theta x phi", .absent = Absent::Earlier}),
+        field("bias", &Row::bias), field("params", &Row::params, {.says = "below", .absent = Absent::Earlier}),
+        field("units", &Row::units, {.says = "of each knob among `params`", .absent = Absent::Earlier}),
+        field("filter", &Row::filter, {.says = "`none`, `bilinear`, `jitter4x4`", .absent = Absent::Earlier}),
+        field("tuned", &Row::isTuned, {.says = "whether a knob was searched (`--tune`)"}),
+        field("scored", &Row::scored,
+              {.unit = "pixels", .says = "that face the light and lie within its cone", .shown = Shown::Count}),
+        labelCount("agree", &Row::agree, "", {"agree", 9}), labelCount("acne", &Row::acne, "Acne", {"acne", 8}),
+        labelCount("leak", &Row::leak, "Leak", {"leak", 8}),
+        labelCount("edge_shadow", &Row::edgeShadow, "Edge, shadow", {"edge_sh", 8}),
+        labelCount("edge_light", &Row::edgeLight, "Edge, light", {"edge_li", 8}),
+        field("edge", &Row::edge,
+              {.unit = "pixels", .says = "both", .shown = Shown::Count, .metric = true, .inFile = false}),
+        labelCount("uncovered", &Row::uncovered, "Uncovered", {"uncovered", 9}, Hides::OnPage),
+        field(
+            "grazing", &Row::grazing,
+            {.unit = "pixels",
+             .says = "whose texel ray does not meet their plane between near and far, where their own depth stands in",
+             .absent = Absent::Earlier,
+             .shown = Shown::Count}),
+        field("edge_on", &Row::edgeOn,
+              {.unit = "pixels",
+               .says = "that the shader's floats take for facing away and the truth does not: edge-on within rounding, "
+                       "counted as agreeing",
+               .absent = Absent::Earlier,
+               .shown = Shown::Count}),
+        field("bias_error", &Row::biasError,
+              {.says = "(acne + leak) / scored",
+               .shown = Shown::Share,
+               .table = {"bias error", 10, 4},
+               .ranks = true,
+               .metric = true}),
+        field("rmse", &Row::rmse,
+              {.says = "of the visibility against the truth through the same filter; a pixel that the map does not "
+                       "cover counts as lit",
+               .title = "RMSE",
+               .table = {"rmse", 7, 4},
+               .metric = true}),
+        field("flip", &Row::flip,
+              {.says = "mean FLIP of the shaded picture; null where no filter is asked for",
+               .title = "FLIP",
+               .table = {"flip", 7, 4},
+               .hides = Hides::OnPage}),
+        field("build_ms", &Row::buildMs,
+              {.unit = "ms",
+               .says = "of the map; median of `--repeats`, wall clock",
+               .shown = Shown::Milliseconds,
+               .title = "Build ms",
+               .table = {"build ms", 9, 2}}),
+        field("shade_ms", &Row::shadeMs,
+              {.unit = "ms",
+               .says = "of the visibility pass; likewise",
+               .shown = Shown::Milliseconds,
+               .title = "Shade ms",
+               .table = {"shade ms", 9, 2}}),
+        field("frame_ms", &Row::frameMs,
+              {.unit = "ms", .says = "`gbuffer_ms` and both", .shown = Shown::Milliseconds, .title = "Frame ms"}),
+        field("tuning", &Row::tuning, {.says = "null, or as below"}),
+        field("worst_acne", &Row::worstAcne, {.says = "null, or the square of the picture with most of it"}),
+        field("worst_leak", &Row::worstLeak, {.says = "likewise"}),
+        field("command", &Row::command, {.says = "that makes this row again", .absent = Absent::Earlier}),
+        field("pictures", &Row::pictures, {.says = "paths beside results.json, below", .absent = Absent::Earlier}));
+  }
+};
+
+// Rows by bias error, then by all wrong pixels, then as they ran.
+std::vector<Row> ranked(std::vector<Row> rows);
+
+}  // namespace gnomon
