@@ -46,6 +46,16 @@ uint32_t groups(int count, int size) {
 
 }  // namespace
 
+std::string volumeSizeName(const VolumeSize& size) {
+  return fmt::format("{}x{}x{}", size.alpha, size.theta, size.phi);
+}
+
+VolumeSize halvedSize(const VolumeSize& size) {
+  return {.alpha = std::max(size.alpha / 2, 2),
+          .theta = std::max(size.theta / 2, 2),
+          .phi = std::max(size.phi / 256 * 128, 128)};
+}
+
 uint64_t volumeTexelCount(const glsl::EpipolarGrid& grid) {
   const uint64_t thetas =
       static_cast<uint64_t>((grid.thetaCount + glsl::kThetaBlock - 1) / glsl::kThetaBlock) * glsl::kThetaBlock;

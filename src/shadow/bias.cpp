@@ -13,10 +13,6 @@ namespace gnomon {
 
 using glsl::BiasParams;
 
-const char* unitName(Unit unit) {
-  return unit == Unit::Metres ? "m" : unit == Unit::Texels ? "texels" : "";
-}
-
 namespace {
 
 // A knob in metres with a default relative to the scene's diagonal.

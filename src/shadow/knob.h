@@ -2,6 +2,8 @@
 // A parameter of a bias or a filter, as their lists declare it. Flags, reports, --help and docs derive from it. Its value
 // stands at its own place in the list: knobs[i] of glsl::BiasParams or glsl::FilterParams.
 
+#include <string>
+
 namespace gnomon {
 
 enum class Unit { Metres, Texels, One };
@@ -22,5 +24,8 @@ struct Knob {
 
   float defaultFor(float sceneScale) const { return defaultValue * (defaultOfSceneScale ? sceneScale : 1.0f); }
 };
+
+// "--constant-offset". `owner`: the name of the bias or filter that lists the knob; no two are named alike.
+std::string knobFlag(const char* owner, const Knob& knob);
 
 }  // namespace gnomon

@@ -1,5 +1,6 @@
 // The bench: ratios are of one round, and its curves and numbers are all there.
 #include "lab/bench/bench.h"
+#include "vsv/volume_parameterization.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +44,7 @@ TEST(Bench, TheCurvesAreOneDrawingThatNamesEveryStageAndSize) {
 TEST(Bench, EveryStageOfASceneIsTimedAgainstOneThatIsThere) {
   const Session session({}, {.scene = "contact", .size = "32"});
   BenchOptions options{.mapTexels = 6 * 32 * 32, .repeats = 1, .growth = false};
-  options.mapOptions.volumeSize = {.alpha = 64, .theta = 64, .phi = 128};
+  options.mapOptions.set(kVolumeSize({.alpha = 64, .theta = 64, .phi = 128}));
   const Bench bench = runBench(session, {}, options);
   EXPECT_GT(bench.stages.size(), 50u);
   EXPECT_FALSE(bench.start.has_value());

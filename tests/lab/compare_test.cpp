@@ -6,7 +6,10 @@
 #include "lab/compare/table.h"
 #include "lab/core/maps.h"
 #include "lab/picture/pictures.h"
+#include "omni/cube_map.h"
+#include "omni/paraboloid_map.h"
 #include "tests/gpu_fixture.h"
+#include "vsv/volume_parameterization.h"
 
 #include <cmath>
 #include <map>
@@ -110,7 +113,7 @@ TEST(Compare, ResultsFollowTheSchema) {
 }
 
 TEST(Compare, TheTableHasTheBestFirst) {
-  const Outcome outcome = run("slope", "spot");
+  const Outcome outcome = run("tilted-planes", "spot");
   const std::vector<Row> rows = ranked(outcome.comparison.rows);
   for (size_t i = 1; i < rows.size(); ++i) EXPECT_LE(rows[i - 1].biasError(), rows[i].biasError());
   EXPECT_EQ(rows.back().bias, "none");
@@ -123,7 +126,7 @@ TEST(Compare, NoPictureHasANanOrAnInfinity) {
     ShadowPasses passes(session);
     for (const Parameterization* map : parameterizations()) {
       LightOnMap lit = openLight(session, passes, *map,
-                                 {.side = 64, .options = {.volumeSize = {.alpha = 64, .theta = 64, .phi = 128}}});
+                                 {.side = 64, .options = {kVolumeSize({.alpha = 64, .theta = 64, .phi = 128})}});
       // Those that divide, move the receiver, or read more than one depth.
       for (const char* name : {"constant", "normal-offset", "receiver-plane", "dual", "adaptive-ehm"}) {
         const BiasMethod& bias = findBias(name);
@@ -169,10 +172,9 @@ TEST(ResultsJson, SaysOfAPointLightsMapWhatIsNotDefault) {
     const Json rows = Json::parse(resultsJson(session, compare(session, options), "gnomon compare")).at("rows");
     return std::pair(rows[0].at("params"), rows[1].at("params"));
   };
-  const auto [cube, paraboloid] = paramsOf({.cubeDepth = CubeDepth::Radial,
-                                            .cubePasses = LayerPasses::Each,
-                                            .paraboloidRaster = ParaboloidRaster::Vertex,
-                                            .paraboloidAxisW = glm::dvec3(0.0, 0.6, 0.8)});
+  const auto [cube, paraboloid] =
+      paramsOf({kCubeDepth(CubeDepth::Radial), kCubePasses(LayerPasses::Each),
+                kParaboloidRaster(ParaboloidRaster::Vertex), kParaboloidAxisW(glm::dvec3(0.0, 0.6, 0.8))});
   EXPECT_EQ(cube.at("cube_depth"), "radial");
   EXPECT_EQ(cube.at("cube_passes"), "six");
   EXPECT_FALSE(cube.contains("paraboloid_raster"));

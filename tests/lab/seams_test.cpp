@@ -2,6 +2,7 @@
 // cube's edge against the others, and against themselves with the seam turned away.
 #include "lab/compare/compare.h"
 #include "lab/core/maps.h"
+#include "omni/paraboloid_map.h"
 
 #include <algorithm>
 #include <array>
@@ -122,7 +123,7 @@ TEST_P(SeamsTest, ShowNoMoreErrorThanElsewhere) {
     if (!std::filesystem::exists(scene)) GTEST_SKIP() << "skipped: " << scene << " is not here";
   }
   Seams seams(scene);
-  LightOnMap through = seams.mapped("paraboloid", 887, {.paraboloidAxisW = seams.axisThroughTheMiddle()});
+  LightOnMap through = seams.mapped("paraboloid", 887, {kParaboloidAxisW(seams.axisThroughTheMiddle())});
   LightOnMap away = seams.mapped("paraboloid", 887, {});
   LightOnMap cube = seams.mapped("cube", 512, {});
   for (const char* bias : {"adaptive", "dual"}) {

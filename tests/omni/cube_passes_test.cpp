@@ -15,7 +15,7 @@ class CubePasses : public gpu::GpuTest {
   Layers draw(const World& world, CubeDepth depth, LayerPasses passes, ChannelSet channels, CullMode cull,
               SecondLayer method = SecondLayer::Blend) {
     const FittedMap fitted =
-        test::fitWhole(world, cubeParameterization(), 96, {.cubeDepth = depth, .cubePasses = passes});
+        test::fitWhole(world, cubeParameterization(), 96, {kCubeDepth(depth), kCubePasses(passes)});
     return test::drawLayers(device(), world, fitted, cull, channels, method);
   }
 };

@@ -23,19 +23,19 @@ struct Kind {
 };
 
 std::vector<Kind> kinds() {
-  return {{"cube", cubeParameterization(), {.cubeDepth = CubeDepth::Hyperbolic}},
-          {"cube, radial", cubeParameterization(), {.cubeDepth = CubeDepth::Radial}},
+  return {{"cube", cubeParameterization(), {kCubeDepth(CubeDepth::Hyperbolic)}},
+          {"cube, radial", cubeParameterization(), {kCubeDepth(CubeDepth::Radial)}},
           {"paraboloid", paraboloidParameterization(), {}},
           {"paraboloid askew",
            paraboloidParameterization(),
-           {.paraboloidAxisW = glm::normalize(glm::dvec3(1.0, 0.3, -0.7))}}};
+           {kParaboloidAxisW(glm::normalize(glm::dvec3(1.0, 0.3, -0.7)))}}};
 }
 
 // And what is not exact.
 std::vector<Kind> kindsOfAllRasters() {
   std::vector<Kind> all = kinds();
   all.push_back(
-      {"paraboloid tessellated", paraboloidParameterization(), {.paraboloidRaster = ParaboloidRaster::Tessellated}});
+      {"paraboloid tessellated", paraboloidParameterization(), {kParaboloidRaster(ParaboloidRaster::Tessellated)}});
   return all;
 }
 
@@ -141,7 +141,7 @@ TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
 // What is not sent to a layer changes nothing on it (src/shadow/layer_culling.h).
 TEST_F(RenderedLayers, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
   std::vector<Kind> all = kindsOfAllRasters();
-  all.push_back({"paraboloid by vertex", paraboloidParameterization(), {.paraboloidRaster = ParaboloidRaster::Vertex}});
+  all.push_back({"paraboloid by vertex", paraboloidParameterization(), {kParaboloidRaster(ParaboloidRaster::Vertex)}});
   for (const char* scene : {"crowd:50000", "double-torus", "sheets"}) {
     World world = test::openWorld(device(), openScene(scene), glm::dvec3(0.3, 1.1, -0.2));
     ASSERT_FALSE(world.buffers.partBoundsW.empty()) << scene;

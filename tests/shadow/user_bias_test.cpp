@@ -163,7 +163,7 @@ TEST_F(UserBiasTest, WhatDoesNotCompileNamesFileAndLine) {
 
 TEST_F(UserBiasTest, TheSampleKeepsPlanesClean) {
   const auto sample = loadUserBias(std::filesystem::path(GNOMON_TEST_DIR) / "../../samples/my_bias.glsl");
-  const test::Rendered r = test::render(device(), "slope", spotParameterization(), 256, 256, CullMode::Solids);
+  const test::Rendered r = test::render(device(), "tilted-planes", spotParameterization(), 256, 256, CullMode::Solids);
   const auto seenBy = [&](const BiasMethod& method) {
     return visibility(r, method, defaultBiasParams(method, r.fitted.map.sceneScale));
   };

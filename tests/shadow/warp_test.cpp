@@ -87,7 +87,7 @@ void expectLiteralPsm(const SeenScene& seen, const FittedMap& fitted, const glm:
 TEST(Psm, IsThePapersCompositionForASun) {
   for (const double azimuth : {35.0, 130.0}) {  // before and behind the camera
     const SeenScene seen = seeLongFloor(60.0, azimuth);
-    const FittedMap fitted = seen.fit(directionalParameterization(), {.warp = Warp::Psm});
+    const FittedMap fitted = seen.fit(directionalParameterization(), {kWarp(Warp::Psm)});
     ASSERT_EQ(fitted.note, "");
     expectLiteralPsm(seen, fitted, glm::dvec4(-seen.light.directionW, 0.0));
   }
@@ -99,7 +99,7 @@ TEST(Psm, IsThePapersCompositionForASpotLight) {
                         .directionW = glm::normalize(glm::dvec3(-12.0, -30.0, 10.0)),
                         .outerConeRad = 0.6};
   const SeenScene seen = test::see(test::longFloor(), test::alongTheFloor(), spot, 96);
-  const FittedMap fitted = seen.fit(spotParameterization(), {.warp = Warp::Psm});
+  const FittedMap fitted = seen.fit(spotParameterization(), {kWarp(Warp::Psm)});
   ASSERT_EQ(fitted.note, "");
   expectLiteralPsm(seen, fitted, glm::dvec4(spot.positionW, 1.0));
 }
@@ -111,8 +111,8 @@ TEST(Lispsm, StandsTheRootOfNearTimesFarBehindTheEye) {
                                    test::sun(90.0, 90.0), 96);
   const ViewDepths depths = viewDepths(seen);
   const double behind = std::sqrt(depths.nearest * depths.farthest);
-  const FittedMap lispsm = seen.fit(directionalParameterization(), {.warp = Warp::Lispsm});
-  const FittedMap psm = seen.fit(directionalParameterization(), {.warp = Warp::Psm});
+  const FittedMap lispsm = seen.fit(directionalParameterization(), {kWarp(Warp::Lispsm)});
+  const FittedMap psm = seen.fit(directionalParameterization(), {kWarp(Warp::Psm)});
   ASSERT_EQ(lispsm.note + psm.note, "");
   const auto at = [&](double depth) {
     return glm::dvec3(seen.view.eyeW) + depth * glm::dvec3(seen.view.forwardW) - glm::dvec3(0, 1.5, 0);
@@ -129,7 +129,7 @@ TEST(Lispsm, StandsTheRootOfNearTimesFarBehindTheEye) {
 TEST(Tsm, HalfOfWhatIsSeenFillsFourFifthsOfTheMap) {
   for (const double azimuth : {0.0, 90.0, 140.0}) {
     const SeenScene seen = seeLongFloor(55.0, azimuth);
-    const FittedMap fitted = seen.fit(directionalParameterization(), {.warp = Warp::Tsm}, 1024);
+    const FittedMap fitted = seen.fit(directionalParameterization(), {kWarp(Warp::Tsm)}, 1024);
     std::vector<double> along;
     for (const glm::dvec3& receiver : seen.scored) along.push_back(uvOf(fitted, receiver).y);
     // Which end is near: W is small there.
@@ -161,22 +161,22 @@ TEST(Warp, RaisesTheDensityNearTheCameraOfALongView) {
   const auto isFar = [&](double depth) { return depth > farther; };
   const FittedMap plain = seen.fit(directionalParameterization(), {}, 1024);
   for (const Warp warp : kWarps) {
-    const FittedMap warped = seen.fit(directionalParameterization(), {.warp = warp}, 1024);
+    const FittedMap warped = seen.fit(directionalParameterization(), {kWarp(warp)}, 1024);
     const double gain = medianWhere(warped, isNear) / medianWhere(plain, isNear);
     const double loss = medianWhere(warped, isFar) / medianWhere(plain, isFar);
-    RecordProperty(std::string(warpName(warp)) + "_near", std::to_string(gain));
-    RecordProperty(std::string(warpName(warp)) + "_far", std::to_string(loss));
-    EXPECT_GT(gain, 4.0) << warpName(warp);
-    EXPECT_GT(gain, 4.0 * loss) << warpName(warp);
+    RecordProperty(kWarp.text(warp) + "_near", std::to_string(gain));
+    RecordProperty(kWarp.text(warp) + "_far", std::to_string(loss));
+    EXPECT_GT(gain, 4.0) << kWarp.text(warp);
+    EXPECT_GT(gain, 4.0 * loss) << kWarp.text(warp);
   }
 }
 
 TEST(Warp, IsNotAppliedWhereTheLightShinesAlongTheViewAndSaysSo) {
   SeenScene seen = seeLongFloor(50.0, 60.0);
   seen.light.directionW = glm::dvec3(seen.view.forwardW);
-  const FittedMap plain = seen.fit(directionalParameterization(), {.snap = false});
+  const FittedMap plain = seen.fit(directionalParameterization(), {kSnap(false)});
   for (const Warp warp : {Warp::Lispsm, Warp::Tsm}) {
-    const FittedMap fitted = seen.fit(directionalParameterization(), {.snap = false, .warp = warp});
+    const FittedMap fitted = seen.fit(directionalParameterization(), {kSnap(false), kWarp(warp)});
     EXPECT_NE(fitted.note.find("no warp"), std::string::npos) << fitted.note;
     EXPECT_EQ(uvOf(fitted, seen.scored.front()), uvOf(plain, seen.scored.front()));
   }
@@ -192,7 +192,7 @@ TEST(Warp, OfALightAmongWhatIsSeenCoversAllOfItAndSaysWhatItCost) {
                           .outerConeRad = 1.4};
     const SeenScene seen = test::see(test::longFloor(), test::alongTheFloor(), spot, 96);
     for (const Warp warp : kWarps) {
-      const FittedMap fitted = seen.fit(spotParameterization(), {.warp = warp});
+      const FittedMap fitted = seen.fit(spotParameterization(), {kWarp(warp)});
       notes += fitted.note.empty() ? 0 : 1;
       for (const glm::dvec3& receiver : seen.scored) uvOf(fitted, receiver);  // covered
     }
@@ -208,7 +208,7 @@ TEST(Warp, KeepsItsRatioAndItsHandAtEveryAngle) {
       const SeenScene seen =
           test::see(test::longFloor(), test::alongTheFloor(), test::sun(elevation, static_cast<double>(azimuth)), 24);
       for (const Warp warp : kWarps) {
-        const FittedMap fitted = seen.fit(directionalParameterization(), {.warp = warp}, 64);
+        const FittedMap fitted = seen.fit(directionalParameterization(), {kWarp(warp)}, 64);
         double least = 1e30, most = 0.0;
         for (const glm::vec2& uv : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(1, 1)}) {
           const glsl::Ray ray = glsl::mapTexelRay(fitted.map, 0, uv);
@@ -217,13 +217,13 @@ TEST(Warp, KeepsItsRatioAndItsHandAtEveryAngle) {
           least = std::min(least, w);
           most = std::max(most, w);
         }
-        EXPECT_GT(least, 0.0) << warpName(warp) << elevation << " " << azimuth;
-        EXPECT_LT(most, kMostWarp * 1.001 * least) << warpName(warp) << elevation << " " << azimuth;
+        EXPECT_GT(least, 0.0) << kWarp.text(warp) << elevation << " " << azimuth;
+        EXPECT_LT(most, kMostWarp * 1.001 * least) << kWarp.text(warp) << elevation << " " << azimuth;
         const auto origin = [&](float u, float v) { return glsl::mapTexelRay(fitted.map, 0, {u, v}).origin; };
         // v runs down in the picture: right x down is along the light's view.
         const glm::vec3 turn =
             glm::cross(origin(0.51f, 0.5f) - origin(0.5f, 0.5f), origin(0.5f, 0.51f) - origin(0.5f, 0.5f));
-        EXPECT_LT(turn.z, 0.0f) << warpName(warp) << elevation << " " << azimuth;
+        EXPECT_LT(turn.z, 0.0f) << kWarp.text(warp) << elevation << " " << azimuth;
       }
     }
   }

@@ -111,7 +111,7 @@ TEST_F(MediaPassTest, OtherMediaAndOtherVolumesGiveTheClosedFormToo) {
       setup.fit = c.fit;
       MediaWorld world(device(), setup);
       EXPECT_LT(worstRelative(world.scattered(kRuns), unshadowedPicture(world)), c.worst)
-          << place.name << ", g " << c.medium.g << ", " << volumeSizeName(c.size) << ", " << volumeFitName(c.fit);
+          << place.name << ", g " << c.medium.g << ", " << volumeSizeName(c.size) << ", " << kVolumeFit.text(c.fit);
     }
   }
 }

@@ -131,7 +131,7 @@ TEST_F(VolumeTest, BitsOfASceneObeyTheRuleAndNeverFallAlongAlpha) {
 // The occluder of a column is the first hit of its own ray; at an edge of what is seen it may be the other
 // side's.
 TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
-  for (const char* scene : {"atrium", "slope", "sheets"}) {
+  for (const char* scene : {"atrium", "tilted-planes", "sheets"}) {
     for (const VolumeFit fit : {VolumeFit::Frustum, VolumeFit::Full}) {
       VolumeWorld w(device(), {.scene = scene, .size = {.alpha = 64, .theta = 250, .phi = 128}, .fit = fit});
       const auto occluders = gpu::downloadAs<float>(device(), w.volume.occluders());
@@ -161,10 +161,10 @@ TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
         }
       }
       const auto all = static_cast<size_t>(map.side * map.rows);
-      std::printf("%s, %s: %zu of %zu columns off (at edges), %zu covered, worst %g rad\n", scene, volumeFitName(fit),
-                  off, all, covered, worst);
+      std::printf("%s, %s: %zu of %zu columns off (at edges), %zu covered, worst %g rad\n", scene,
+                  kVolumeFit.text(fit).c_str(), off, all, covered, worst);
       EXPECT_LT(off, 2 + all / 2000);
-      EXPECT_GT(covered, all / 200);  // `slope` is a patch of the whole sphere
+      EXPECT_GT(covered, all / 200);  // `tilted-planes` is a patch of the whole sphere
     }
   }
 }
@@ -188,7 +188,7 @@ std::vector<Place> places() {
 TEST_F(VolumeTest, OnSlopeAdaptiveHasNoAcneWhereverTheLight) {
   for (const Place& place : places()) {
     for (const VolumeFit fit : {VolumeFit::Frustum, VolumeFit::Full}) {
-      VolumeWorld w(device(), {.scene = "slope", .lightW = place.lightW, .fit = fit});
+      VolumeWorld w(device(), {.scene = "tilted-planes", .lightW = place.lightW, .fit = fit});
       size_t acne[2] = {0, 0};
       for (const bool adaptive : {false, true}) {
         const LabelledResult score = w.judge(adaptive ? "adaptive" : "none");
@@ -198,11 +198,11 @@ TEST_F(VolumeTest, OnSlopeAdaptiveHasNoAcneWhereverTheLight) {
         EXPECT_EQ(sum, w.lit.receivers().scored);
         EXPECT_EQ(score.labels.count(Label::Uncovered), 0u);
       }
-      std::printf("%s, %s: scored %zu, acne none %zu, adaptive %zu\n", place.where, volumeFitName(fit),
+      std::printf("%s, %s: scored %zu, acne none %zu, adaptive %zu\n", place.where, kVolumeFit.text(fit).c_str(),
                   w.lit.receivers().scored, acne[0], acne[1]);
       EXPECT_GT(w.lit.receivers().scored, 2000u);
       EXPECT_GT(acne[0], w.lit.receivers().scored / 20) << place.where;
-      EXPECT_EQ(acne[1], 0u) << place.where << ", " << volumeFitName(fit);
+      EXPECT_EQ(acne[1], 0u) << place.where << ", " << kVolumeFit.text(fit);
     }
   }
 }
@@ -225,7 +225,7 @@ TEST_F(VolumeTest, GoldenPictures) {
   for (const VolumeSource source : {VolumeSource::Direct, VolumeSource::Resample}) {
     VolumeWorld w(device(), {.scene = "contact", .size = {.alpha = 256, .theta = 256, .phi = 128}, .source = source});
     for (const char* bias : {"none", "constant", "adaptive"})
-      test::compareWithGolden(fmt::format("contact_vsv_{}_{}", volumeSourceName(source), bias),
+      test::compareWithGolden(fmt::format("contact_vsv_{}_{}", kVolumeSource.text(source), bias),
                               w.judge(bias).visibility, 256, isLavapipe());
   }
 }
@@ -245,7 +245,7 @@ TEST_F(VolumeTest, AVolumeTooLargeIsRefusedWithASizeThatFits) {
     const size_t before = message.find("MiB; ");
     ASSERT_NE(before, std::string::npos) << message;
     const std::string fits = message.substr(before + 5, message.find(" would fit") - before - 5);
-    tryTo(parseVolumeSize(fits));
+    tryTo(kVolumeSize.parse(fits));
   }
 }
 

@@ -127,8 +127,7 @@ Growth withVolumeSize(const Session& session, const BenchOptions& options) {
   for (const VolumeSize& size : {VolumeSize{256, 256, 256}, VolumeSize{512, 512, 256}, VolumeSize{512, 512, 512},
                                  VolumeSize{1024, 1024, 512}, VolumeSize{1024, 1024, 1024}}) {
     BenchOptions sized = options;
-    sized.mapOptions.volumeSize = size;
-    sized.mapOptions.volumeSource = VolumeSource::Direct;
+    sized.mapOptions = options.mapOptions.with(kVolumeSize(size)).with(kVolumeSource(VolumeSource::Direct));
     Subject volume(session, volumeParameterization(), 1024, sized);
     curves.addPoint(static_cast<double>(size.alpha) * size.theta * size.phi, volumeSizeName(size),
                     {{"volume, all", [&] { return volume.build(glsl::kChannelDepth); }},

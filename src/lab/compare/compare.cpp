@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "lab/compare/compare_command.h"
 #include "lab/compare/robustness.h"
 #include "lab/compare/row_pictures.h"
 #include "lab/compare/tune.h"
@@ -48,9 +49,9 @@ std::string filterKnobName(const Knob& knob) {
 }
 
 // Knobs, then what the map holds and how it is drawn and fitted.
-Params paramsOf(const Method& method, const Filter& filter, const FittedMap& fitted, const CompareOptions& choice) {
+Params paramsOf(const Method& method, const Filter& filter, const Parameterization& map, const FittedMap& fitted,
+                const CompareOptions& choice) {
   const BiasMethod& bias = *method.bias;
-  const MapOptions& map = choice.mapOptions;
   Params params;
   for (const Knob& knob : knobsOf(bias)) params.push_back({knob.name, shortest(valueOf(method.params, bias, knob))});
   const ChosenFilter chosen = filterFor(choice, filter);
@@ -59,11 +60,7 @@ Params paramsOf(const Method& method, const Filter& filter, const FittedMap& fit
   if (bias.takesEpsilonAt) params.push_back({"epsilon_at", epsilonAtName(method.params.epsilonAt)});
   params.push_back({"map_content", contentName(bias.channels)});
   params.push_back({"cull", cullModeName(choice.cull)});
-  params.push_back({"fit", windowFitName(map.fit)});
-  params.push_back({"snap", snaps(map) ? "on" : "off"});
-  params.push_back({"warp", warpName(map.warp)});
-  params.push_back({"cascades", int64_t{map.cascades}});  // as asked for: a spot has one all the same
-  for (const auto& [name, value] : mapParams(fitted, map)) params.push_back({name, value});
+  for (const Param& param : mapParams(map, fitted, choice.mapOptions)) params.push_back(param);
   return params;
 }
 
@@ -178,7 +175,7 @@ class MapComparison {
       row.layers = fitted.map.layerCount;
       row.mapTexels = size_t{1} * fitted.map.side * fitted.map.rows * fitted.map.layerCount;
       row.mapDimensions = mapSizeText(fitted);
-      row.params = paramsOf(entry.method, *filter, fitted, options_);
+      row.params = paramsOf(entry.method, *filter, parameterization_, fitted, options_);
       row.filter = filter->name;
       describe(row, entry, judged);
       for (const Knob& knob : filter->knobs) row.units.emplace_back(filterKnobName(knob), unitName(knob.unit));
@@ -355,7 +352,10 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   }
   if (comparison.rows.empty()) openLight(session, passes, *options.maps.front(), {});  // says why
   if (severalLights) addSums(comparison);
-  for (Row& row : comparison.rows) row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
+  for (Row& row : comparison.rows) {
+    row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
+    row.command = rowCommand(session.setup(), options, row);
+  }
   return comparison;
 }
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "lab/core/depth_images.h"
 #include "lab/picture/pictures.h"
+#include "planar/planar_map.h"
 
 #include <algorithm>
 #include <array>
@@ -91,13 +92,13 @@ RenderedPicture layerGap(const Subject& subject) {
   return metres(*twoDepthsOf(subject.lit).gap);
 }
 
-RenderedPicture density(const Subject& subject) {
+RenderedPicture texelDensity(const Subject& subject) {
   const LightOnMap& lit = subject.lit;
   const std::vector<float> densities = lit.texelDensities();
   const MapSetup& setup = lit.setup();
   const std::string title = fmt::format("{}, {} x {} x {} texels, fit {}, warp {}", lit.parameterization().name(),
                                         lit.fitted().map.layerCount, setup.side, setup.side,
-                                        windowFitName(setup.options.fit), warpName(setup.options.warp));
+                                        setup.options.text(kWindowFit), setup.options.text(kWarp));
   return {densityPicture(lit.receivers(), densities, title), oneChannel(subject, densities), {"texels_per_m2"}, {}};
 }
 
@@ -113,7 +114,7 @@ constexpr std::array kShown = {ShowChoice{"beauty", beauty},
                                ShowChoice{"depth", depth},
                                ShowChoice{"second-depth", secondDepth},
                                ShowChoice{"layer-gap", layerGap},
-                               ShowChoice{"density", density}};
+                               ShowChoice{"texel-density", texelDensity}};
 
 }  // namespace
 

@@ -62,7 +62,7 @@ Robustness::Robustness(const LightOnMap& tuned, const CompareOptions& options)
   if (other.receivers().scored > 0) otherCamera_ = std::make_unique<Place>(std::move(other));
   MapSetup halved = setup;
   halved.side = std::max(setup.side / 2, 2);
-  halved.options.volumeSize = halvedSize(setup.options.volumeSize);
+  halved.options = tuned.parameterization().halved(setup.options);
   otherMapSize_ = std::make_unique<Place>(LightOnMap(tuned, halved));
 }
 

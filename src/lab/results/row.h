@@ -88,6 +88,7 @@ struct Row {
   double buildMs = 0.0, shadeMs = 0.0, frameMs = 0.0;
   std::optional<Tuning> tuning;
   std::optional<WorstPlace> worstAcne, worstLeak;
+  std::string command;
   Pictures pictures;
 
   bool isTuned() const { return tuning.has_value(); }
@@ -183,6 +184,7 @@ struct Row {
         field("tuning", &Row::tuning, {.says = "null, or as below"}),
         field("worst_acne", &Row::worstAcne, {.says = "null, or the square of the picture with most of it"}),
         field("worst_leak", &Row::worstLeak, {.says = "likewise"}),
+        field("command", &Row::command, {.says = "that makes this row again", .absent = Absent::Earlier}),
         field("pictures", &Row::pictures, {.says = "paths beside results.json, below", .absent = Absent::Earlier}));
   }
 };
