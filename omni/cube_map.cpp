@@ -33,7 +33,9 @@ class CubeParameterization final : public Parameterization {
   const char* sentence() const override { return "six layers around a point light"; }
   int layerCount(const MapOptions&) const override { return 6; }
 
-  Takes takes(LightType type) const override { return type == LightType::Directional ? Takes::No : Takes::Yes; }
+  LightSupport supportsLight(LightType type) const override {
+    return type == LightType::Directional ? LightSupport::No : LightSupport::Yes;
+  }
 
   LightModel lightModel(const Light& light, const glm::dvec3&) const override {
     return {.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};

@@ -1,5 +1,5 @@
 // A vertex to a layer of a paraboloid map, as Brabec et al. 2002 do: corners are right, and what lies between them is drawn straight,
-// which it is not. Kept to be compared with bound_in_paraboloid.vert.glsl.
+// which it is not. Kept to be compared with bound_in_paraboloid.comp.glsl.
 #include "shared/shade.glsl"
 
 layout(scalar, binding = kBindPositions) readonly buffer Positions { vec3 positions[]; };

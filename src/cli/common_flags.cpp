@@ -97,7 +97,7 @@ void checkMeaning(const CompareOptions& options, const Parameterization& map) {
   const CompareOptions own = optionsFor(options, map);
   std::string biases, left;
   for (const BiasMethod& method : biasMethods())
-    if (map.answers(method)) biases += (biases.empty() ? "" : ", ") + std::string(method.name);
+    if (map.supportsBias(method)) biases += (biases.empty() ? "" : ", ") + std::string(method.name);
   if (own.biases.empty())
     throw UsageError(fmt::format("--maps {} takes none of these --biases; choose from {}", map.name(), biases));
   if (own.filters.empty()) throw UsageError(fmt::format("--maps {} takes no filter; add --filters none", map.name()));

@@ -181,7 +181,11 @@ class SpotParameterization final : public Parameterization {
   const char* sentence() const override { return "one perspective layer within a cone"; }
   int layerCount(const MapOptions&) const override { return 1; }
 
-  Takes takes(LightType type) const override { return type == LightType::Directional ? Takes::No : Takes::Yes; }
+  LightSupport supportsLight(LightType type) const override {
+    return type == LightType::Directional ? LightSupport::No : LightSupport::Yes;
+  }
+
+  bool needsAim(LightType type) const override { return type == LightType::Point; }
 
   LightModel lightModel(const Light& light, const glm::dvec3& aimW) const override {
     return {.type = LightType::Spot,
@@ -201,9 +205,11 @@ class DirectionalParameterization final : public Parameterization {
   }
   int layerCount(const MapOptions& options) const override { return options.cascades; }
 
-  Takes takes(LightType type) const override {
-    return type == LightType::Directional ? Takes::Yes : Takes::IfNothingElse;
+  LightSupport supportsLight(LightType type) const override {
+    return type == LightType::Directional ? LightSupport::Yes : LightSupport::Fallback;
   }
+
+  bool needsAim(LightType type) const override { return type == LightType::Point; }
 
   LightModel lightModel(const Light& light, const glm::dvec3& aimW) const override {
     return {.type = LightType::Directional,

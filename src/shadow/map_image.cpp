@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "shadow/layer_culling.h"
+#include "shadow/visibility_pass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,22 +75,8 @@ std::vector<gpu::Binding> bindingsOf(const gpu::GraphicsProgram& program, const 
 
 }  // namespace
 
-CullMode parseCullMode(const std::string& name) {
-  if (name == "solids") return CullMode::Solids;
-  if (name == "none") return CullMode::None;
-  throw UsageError(fmt::format("--cull {}: no such mode; choose from solids, none", name));
-}
-
-const char* cullModeName(CullMode mode) {
-  return mode == CullMode::Solids ? "solids" : "none";
-}
-
 MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, MapContent content)
-    : fitted_(fitted),
-      uniforms_(gpu::createBufferWith(
-          device, "map uniforms", std::vector<glsl::MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
-          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)),
-      content_(content) {
+    : Occluders(device, fitted, "map uniforms"), content_(content) {
   depth_ = gpu::Image(device, layersDesc("shadow map depth", VK_FORMAT_D32_SFLOAT,
                                          VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, fitted.map));
   if (content == MapContent::TwoLayers)
@@ -97,7 +84,26 @@ MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, MapConten
                                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, fitted.map));
 }
 
-MapRenderer::MapRenderer(const gpu::Device& device) : device_(device), bounded_(device) {}
+void MapImage::recordDrawing(gpu::Commands& commands, const MapRenderer& renderer, const SceneBuffers& scene,
+                             const LightModel& light, CullMode cull) {
+  renderer.record(commands, scene, *this, light, cull);
+}
+
+void MapImage::recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                                VisibilityPass& pass, const ShadowLookup& lookup) const {
+  pass.record(commands, scene, gbuffer, *this, lookup.bias, lookup.diagnose, lookup.filter);
+}
+
+std::vector<float> MapImage::downloadDepth(const gpu::Device& device) const {
+  return gpu::downloadAs<float>(device, depth_);
+}
+
+std::vector<float> MapImage::downloadSecondDepth(const gpu::Device& device) const {
+  if (content_ != MapContent::TwoLayers) return {};
+  return gpu::downloadAs<float>(device, second_);
+}
+
+MapRenderer::MapRenderer(const gpu::Device& device) : device_(device), computePrograms_(device), bounded_(device) {}
 
 const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
   for (const auto& entry : programs_)
@@ -130,11 +136,11 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
 
 void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
                                 const Grouping& groupOf) const {
-  const LayerShaders& shaders = layer.map.fitted_.shaders;
+  const LayerShaders& shaders = layer.map.fitted().shaders;
   const bool backFaces = layer.map.content() == MapContent::BackFaces;
   const bool mirrors = (shaders.mirroredLayers >> layer.index & 1u) != 0;
   const LayerPush push{.layer = layer.index};
-  const LayerCulling culling(layer.map.fitted_, layer.index, layer.count);
+  const LayerCulling culling(layer.map.fitted(), layer.index, layer.count);
   std::vector<std::vector<LayerCulling::Range>> shown;  // of each draw
   for (const Draw& d : scene.draws) shown.push_back(culling.rangesOf(scene, d));
   commands.beginRendering(layer.targets);
@@ -168,12 +174,12 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
 
 void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
                                const Grouping& groupOf) const {
-  const LayerShaders& shaders = layer.map.fitted_.shaders;
+  const LayerShaders& shaders = layer.map.fitted().shaders;
   const bool backFaces = layer.map.content() == MapContent::BackFaces;
   const LayerPush push{.layer = layer.index};
   gpu::RenderTargets targets = layer.targets;
   bool cleared = false;
-  const LayerCulling culling(layer.map.fitted_, layer.index, layer.count);
+  const LayerCulling culling(layer.map.fitted(), layer.index, layer.count);
   for (const bool masked : {false, true}) {
     std::vector<BoundedDraws::Piece> pieces;
     for (const Draw& d : scene.draws) {
@@ -203,7 +209,7 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
 }
 
 bool MapRenderer::takesMultiview(const MapImage& map) const {
-  const LayerShaders& shaders = map.fitted_.shaders;
+  const LayerShaders& shaders = map.fitted().shaders;
   if (shaders.passes == LayerPasses::Each) return false;
   auto found = std::ranges::find(multiviewChecks_, shaders, &decltype(multiviewChecks_)::value_type::first);
   if (found == multiviewChecks_.end()) {
@@ -212,7 +218,7 @@ bool MapRenderer::takesMultiview(const MapImage& map) const {
       recordLayers(commands, scene, tried, {}, CullMode::None, SecondLayer::Blend, multiview);
       return commands.submitAndWait().wallMs;
     };
-    found = multiviewChecks_.insert(found, {shaders, checkMultiview(device_, map.fitted_, draw)});
+    found = multiviewChecks_.insert(found, {shaders, checkMultiview(device_, map.fitted(), draw)});
   }
   const MultiviewCheck& check = found->second;
   if (shaders.passes == LayerPasses::Multiview && !check.same)
@@ -236,7 +242,7 @@ void MapRenderer::recordLayers(gpu::Commands& commands, const SceneBuffers& scen
     return !culled ? Group::Sheets : draw.mirrored ? Group::MirroredSolids : Group::Solids;
   };
   const auto recordLayer = [&](const Layer& layer) {
-    if (*map.fitted_.shaders.bounds == '\0')
+    if (*map.fitted().shaders.bounds == '\0')
       recordCorners(commands, scene, layer, groupOf);
     else
       recordBounds(commands, scene, layer, groupOf);
@@ -244,7 +250,7 @@ void MapRenderer::recordLayers(gpu::Commands& commands, const SceneBuffers& scen
   const bool peels = method == SecondLayer::Peel && map.content() == MapContent::TwoLayers;
   if (peels && map.peelDepth_.handle() == VK_NULL_HANDLE)
     map.peelDepth_ = gpu::Image(device_, layersDesc("peel depth", VK_FORMAT_D32_SFLOAT,
-                                                    VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, map.fitted_.map));
+                                                    VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, map.fitted().map));
   const int count = multiview ? map.layerCount() : 1;
   for (int layer = 0; layer < map.layerCount(); layer += count) {
     gpu::RenderTargets first{.depth = &map.depth(), .clearDepth = 1.0f};

@@ -5,23 +5,13 @@
 #include "shadow/bias.h"
 #include "shadow/bounded_draws.h"
 #include "shadow/multiview_check.h"
-#include "shadow/parameterization.h"
+#include "shadow/occluders.h"
 
 #include "shared/shade.glsl"
 
 #include <functional>
 
 namespace gnomon {
-
-enum class CullMode {
-  Solids,  // back faces of closed one-sided meshes, seen from the light, are left out (Weiskopf & Ertl 2003,
-           // section 4)
-  None,
-};
-
-// "solids" or "none". Throws UsageError.
-CullMode parseCullMode(const std::string& name);
-const char* cullModeName(CullMode mode);
 
 // How the second layer is found. Both give the same bits where the peel's tolerance is 0.
 enum class SecondLayer {
@@ -33,25 +23,28 @@ enum class SecondLayer {
   Peel,
 };
 
-class MapImage {
+class MapImage final : public Occluders {
  public:
   // Throws WorldError where the device cannot hold the map.
   MapImage(const gpu::Device& device, const FittedMap& fitted, MapContent content = MapContent::OneLayer);
 
-  const gpu::Image& depth() const { return depth_; }         // D32, layerCount layers
-  const gpu::Image& secondDepth() const { return second_; }  // R32F; only of TwoLayers
-  const gpu::Buffer& uniforms() const { return uniforms_; }  // glsl::MapUniforms
+  void recordDrawing(gpu::Commands& commands, const MapRenderer& renderer, const SceneBuffers& scene,
+                     const LightModel& light, CullMode cull) override;
+  void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                        VisibilityPass& pass, const ShadowLookup& lookup) const override;
+  const gpu::Image& depth() const override { return depth_; }  // layerCount layers
+  const gpu::Image& secondDepth() const { return second_; }    // R32F; only of TwoLayers
+  std::vector<float> downloadDepth(const gpu::Device& device) const override;
+  std::vector<float> downloadSecondDepth(const gpu::Device& device) const override;
+
   MapContent content() const { return content_; }
-  int layerCount() const { return fitted_.map.layerCount; }
-  int kind() const { return fitted_.map.kind; }  // glsl::kMap*
+  int layerCount() const { return fitted().map.layerCount; }
 
  private:
   friend class MapRenderer;
-  FittedMap fitted_;
   gpu::Image depth_;
   gpu::Image second_;
   gpu::Image peelDepth_;  // made at the first peel
-  gpu::Buffer uniforms_;
   MapContent content_ = MapContent::OneLayer;
 };
 
@@ -65,6 +58,9 @@ class MapRenderer {
   // check of the device.
   void record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light, CullMode cull,
               SecondLayer method = SecondLayer::Blend) const;
+
+  // Of what else is made of maps (ShadowVolume), compiled at first use.
+  const gpu::ComputePrograms& programs() const { return computePrograms_; }
 
  private:
   enum class Pass { First, Blend, Peel };  // kPass
@@ -101,6 +97,7 @@ class MapRenderer {
                     const Grouping& groupOf) const;
 
   const gpu::Device& device_;
+  gpu::ComputePrograms computePrograms_;
   mutable std::vector<std::unique_ptr<Entry>> programs_;  // compiled at first use
   mutable BoundedDraws bounded_;
   mutable std::vector<std::pair<LayerShaders, MultiviewCheck>> multiviewChecks_;

@@ -58,7 +58,8 @@ VisibilityPass::VisibilityPass(const gpu::Device& device, int width, int height)
           device,
           {.name = "shade uniforms", .size = sizeof(glsl::ShadeUniforms), .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
       visibility_(device, {.name = "visibility", .size = pixelBytes(width, height, sizeof(float))}),
-      diagnosis_(device, {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}) {}
+      diagnosis_(device, {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}),
+      programs_(device) {}
 
 void VisibilityPass::setUniforms(const glsl::ShadeUniforms& uniforms) {
   gpu::upload(device_, uniforms_, gpu::asPush(uniforms));

@@ -26,6 +26,9 @@ class VisibilityPass {
 
   void setUniforms(const glsl::ShadeUniforms& uniforms);
 
+  // Of other looks-up into these buffers (ShadowVolume), compiled at first use.
+  const gpu::ComputePrograms& programs() const { return programs_; }
+
   glm::uvec3 groupCount() const { return groupCount_; }  // of kShadeGroupSide^2, for the whole picture
   const gpu::Buffer& uniforms() const { return uniforms_; }
   const gpu::Buffer& visibility() const { return visibility_; }  // float a pixel; 1 lit, kUnknownVisibility
@@ -48,6 +51,7 @@ class VisibilityPass {
   glm::uvec3 groupCount_;
   gpu::Buffer uniforms_, visibility_, diagnosis_;
   std::vector<std::unique_ptr<Variant>> variants_;
+  gpu::ComputePrograms programs_;
 };
 
 class RadiancePass {

@@ -120,18 +120,17 @@ TEST(Compare, TheTableHasTheBestFirst) {
 TEST(Compare, NoPictureHasANanOrAnInfinity) {
   for (const char* scene : {"sheets", "crowd:20000", "factory"}) {
     const Session session({.validation = true}, {.scene = scene, .size = "96"});
-    Passes passes(session.device(), session.view());
+    ShadowPasses passes(session);
     for (const Parameterization* map : parameterizations()) {
-      const Exact exact = computeExact(session, *map);
-      const Fit fit = fitMap(session, *map, exact, 64, {.volumeSize = {.alpha = 64, .theta = 64, .phi = 128}});
+      LightOnMap lit = openLight(session, passes, *map,
+                                 {.side = 64, .options = {.volumeSize = {.alpha = 64, .theta = 64, .phi = 128}}});
       // Those that divide, move the receiver, or read more than one depth.
       for (const char* name : {"constant", "normal-offset", "receiver-plane", "dual", "adaptive-ehm"}) {
         const BiasMethod& bias = findBias(name);
-        if (!map->answers(bias)) continue;
-        const DrawnMap drawn = drawMap(session, passes.renderers, fit.fitted, exact, bias.content, CullMode::Solids);
-        const Judged judged = judge(session, passes, drawn, exact, methodFor(session, {}, bias));
+        if (!map->supportsBias(bias)) continue;
+        const LabelledResult judged = lit.judge(atDefaults(bias, session));
         for (const float v : judged.visibility) ASSERT_TRUE(v == 0.0f || v == 1.0f) << scene << " " << bias.name;
-        for (const float v : renderRadiance(session, passes, exact, judged.visibility).values)
+        for (const float v : lit.radiance(judged.visibility).values)
           ASSERT_TRUE(std::isfinite(v) && v >= 0.0f) << scene << " " << bias.name;
       }
     }

@@ -15,23 +15,20 @@ namespace {
 // One of the two views.
 struct View {
   Session session;
-  Passes passes;
-  Exact exact;
-  MapSet maps;
-  Trial trial;
+  ShadowPasses passes;
+  LightOnMap lit;
+  TuningEvaluator evaluator;
 
   explicit View(const char* camera)
       : session({.validation = true}, {.scene = "near-far", .camera = camera, .size = "256"}),
-        passes(session.device(), session.view()),
-        exact(computeExact(session, *parseMaps("paraboloid").front())),
-        maps(session, passes.renderers, fitMap(session, *parseMaps("paraboloid").front(), exact, 2048, {}).fitted,
-             exact, CullMode::Solids),
-        trial(session, passes, exact, maps) {}
+        passes(session),
+        lit(openLight(session, passes, *parseMaps("paraboloid").front(), {.side = 2048})),
+        evaluator(lit) {}
 
   double error(const char* bias, float glsl::BiasParams::*knob, float value) {
-    Method method = methodFor(session, {}, findBias(bias));
+    Method method = atDefaults(findBias(bias), session);
     method.params.*knob = value;
-    return static_cast<double>(trial.biasErrors(method)) / trial.scored();
+    return static_cast<double>(evaluator.biasErrors(method)) / evaluator.scored();
   }
 };
 

@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 TEST(FitAndWarp, AdaptiveHasNeitherAcneNorLeakOnSlopeUnderAnyOfThem) {
   const SetupOptions setup{.scene = "slope", .size = "256"};
   const Session session({.validation = true}, setup);
-  Passes passes(session.device(), session.view());
+  ShadowPasses passes(session);
   std::vector<MapOptions> all;
   for (const WindowFit fit : {WindowFit::None, WindowFit::Tight, WindowFit::Focused}) {
     for (const Warp warp : {Warp::None, Warp::Psm, Warp::Lispsm, Warp::Tsm}) all.push_back({.fit = fit, .warp = warp});
@@ -28,16 +28,14 @@ TEST(FitAndWarp, AdaptiveHasNeitherAcneNorLeakOnSlopeUnderAnyOfThem) {
   }
   all.push_back({.snap = false});
   for (const char* name : {"spot", "directional"}) {
-    const Parameterization& map = *parseMaps(name).front();
-    const Exact exact = computeExact(session, map);
+    const LightOnMap light = openLight(session, passes, *parseMaps(name).front(), {});
     for (const MapOptions& options : all) {
       const std::string what = std::string(name) + " " + windowFitName(options.fit) + " " + warpName(options.warp) +
                                " " + std::to_string(options.cascades);
-      const DrawnMap drawn = drawMap(session, passes.renderers, fitMap(session, map, exact, 256, options).fitted, exact,
-                                     MapContent::OneLayer, CullMode::Solids);
-      const Judged none = judge(session, passes, drawn, exact, methodFor(session, {}, findBias("none")));
-      EXPECT_GT(none.labels.count(Label::Acne), exact.receivers.scored / 50) << what;
-      const Judged adaptive = judge(session, passes, drawn, exact, methodFor(session, {}, findBias("adaptive")));
+      LightOnMap lit(light, {.side = 256, .options = options});
+      const LabelledResult none = lit.judge(atDefaults(findBias("none"), session));
+      EXPECT_GT(none.labels.count(Label::Acne), lit.receivers().scored / 50) << what;
+      const LabelledResult adaptive = lit.judge(atDefaults(findBias("adaptive"), session));
       EXPECT_EQ(adaptive.labels.count(Label::Acne), 0u) << what;
       EXPECT_EQ(adaptive.labels.count(Label::Leak), 0u) << what;
       EXPECT_EQ(adaptive.labels.count(Label::Uncovered), 0u) << what;

@@ -112,12 +112,12 @@ TEST_F(FogTest, LightsAddUpInEveryWay) {
   how.truth = false;
   how.medium.sigmaS = glm::vec3(0.1f, 0.2f, 0.3f);
   const FogResult single = runFog(one, how);
-  Passes passes(one.device(), one.view());
+  ShadowPasses passes(one);
   Light twin = single.view.lights.front();
   const FogView both = lookIntoFog(one, passes, {twin, twin}, how.medium);
   const FogMethodOptions methods{
       .methods = single.methods, .marchMap = how.marchMap, .map = how.map, .mapSide = how.mapSide};
-  const std::vector<FogMethodResult> doubled = runFogMethods(one, passes.renderers, both, methods);
+  const std::vector<FogMethodResult> doubled = runFogMethods(one, passes, both, methods);
   for (size_t r = 0; r < doubled.size(); ++r)
     for (size_t i = 0; i < doubled[r].inScattered.values.size(); ++i)
       ASSERT_EQ(doubled[r].inScattered.values[i], 2.0f * single.inScattered[r].values[i]);
@@ -127,7 +127,7 @@ TEST_F(FogTest, LightsAddUpInEveryWay) {
 
 TEST_F(FogTest, AThickerMediumDimsWhatStandsInIt) {
   const Session session = open({.scene = "grate", .size = "32"});
-  Passes passes(session.device(), session.view());
+  ShadowPasses passes(session);
   FogMedium thin{.sigmaS = glm::vec3(0.0f)}, thick{.sigmaS = glm::vec3(0.1f), .sigmaA = glm::vec3(0.0f, 0.1f, 0.0f)};
   const FogView clear = lookIntoFog(session, passes, fogLights(session), thin);
   const FogView foggy = lookIntoFog(session, passes, fogLights(session), thick);
@@ -153,7 +153,7 @@ TEST_F(FogTest, AThickerMediumDimsWhatStandsInIt) {
 
 TEST_F(FogTest, AReferenceIsTracedOnceAndAgainWhereAnythingChanges) {
   const Session session = open({.scene = "grate", .size = "24x16"});
-  Passes passes(session.device(), session.view());
+  ShadowPasses passes(session);
   const std::vector<Light> lights = fogLights(session);
   const FogView view = lookIntoFog(session, passes, lights, {});
   const MediaReferenceOptions how;
@@ -185,14 +185,14 @@ TEST_F(FogTest, AReferenceIsTracedOnceAndAgainWhereAnythingChanges) {
   differs("samples", [](FogView&, MediaReferenceOptions& o) { o.firstSamples = 16; });
   Camera camera = session.camera();
   camera.yFovRad *= 1.01f;
-  EXPECT_NE(referenceKey(Session(session, camera), view, how), key);
+  EXPECT_NE(referenceKey(SceneView(session, camera), view, how), key);
   EXPECT_NE(referenceKey(open({.scene = "contact", .size = "24x16"}), view, how), key);
   EXPECT_EQ(referenceKey(session, view, how), key);
 }
 
 TEST_F(FogTest, ADamagedReferenceIsTracedAnew) {
   const Session session = open({.scene = "grate", .size = "8"});
-  Passes passes(session.device(), session.view());
+  ShadowPasses passes(session);
   const FogView view = lookIntoFog(session, passes, fogLights(session), {});
   const MediaReference exact = referenceFor(session, view, {}, true).reference;
   const fs::path path = referenceFile(referenceKey(session, view, {}));
@@ -238,7 +238,7 @@ TEST_F(FogTest, ALightWithoutAPlaceIsRefused) {
   const Session session = open({.scene = "slope", .size = "8"});
   ASSERT_FALSE(session.scene().lights.empty());
   const Session atEye = open({.scene = "grate", .light = "0,1,5", .camera = "eye:0,1,5,target:0,0,0", .size = "8"});
-  Passes passes(atEye.device(), atEye.view());
+  ShadowPasses passes(atEye);
   EXPECT_THROW(lookIntoFog(atEye, passes, fogLights(atEye), {}), WorldError);
 }
 

@@ -10,7 +10,7 @@ namespace {
 // `aimW`: where a light without a direction shines.
 LightModel lightFor(const Scene& scene, const Parameterization& map, const glm::dvec3& aimW) {
   const auto wanted = std::ranges::find_if(
-      scene.lights, [&](const Light& light) { return map.takes(light.type) == Parameterization::Takes::Yes; });
+      scene.lights, [&](const Light& light) { return map.supportsLight(light.type) == LightSupport::Yes; });
   const Light light = wanted != scene.lights.end() ? *wanted : scene.lights.front();
   const glm::dvec3 aim = glm::normalize(aimW - glm::dvec3(light.positionW));
   return map.lightModel(light, aim);

@@ -61,7 +61,7 @@ SeenScene see(Scene scene, const Camera& camera, const LightModel& light, int pi
 SeenScene see(const std::string& sceneName, const Parameterization& map, int pictureSide, size_t camera) {
   Scene scene = openScene(sceneName);
   const Light light = *std::ranges::find_if(
-      scene.lights, [&](const Light& l) { return map.takes(l.type) == Parameterization::Takes::Yes; });
+      scene.lights, [&](const Light& l) { return map.supportsLight(l.type) == LightSupport::Yes; });
   const Camera chosen = scene.cameras.at(camera);
   const glm::dvec3 middle(glm::vec3(chosen.worldFromEye[3]) - glm::vec3(chosen.worldFromEye[2]) * 4.0f);
   const LightModel model = map.lightModel(light, glm::normalize(middle - glm::dvec3(light.positionW)));

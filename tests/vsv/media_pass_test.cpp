@@ -72,14 +72,14 @@ TEST_F(MediaPassTest, AFittedVolumeHoldsEveryViewRay) {
   for (const Place& place : kPlaces) setups.push_back(test::emptyMediaSetup(place.eyeW, place.targetW, place.lightW));
   for (const MediaSetup& setup : setups) {
     const MediaWorld world(device(), setup);
-    const FittedVolume& fitted = world.volume->fitted();
-    const glsl::EpipolarGrid& grid = fitted.grid;
+    const FittedMap& columns = world.volume->fitted();
+    const glsl::EpipolarGrid& grid = columns.map.epipolar;
     double farthest = 0.0;
     for (const glm::dvec3& end : world.endsW) farthest = std::max(farthest, glm::length(end - setup.light.positionW));
-    EXPECT_GE(fitted.columns.zFar, farthest * (1.0 - 1e-6));
+    EXPECT_GE(columns.zFar, farthest * (1.0 - 1e-6));
     for (size_t i = 0; i + 1 < world.endsW.size(); ++i) {
-      const glsl::EpipolarPoint end = glsl::epipolarFromLight(
-          grid.eyeDistance, glsl::lightFromWorld(fitted.columns.frame, glm::vec3(world.endsW[i])));
+      const glsl::EpipolarPoint end =
+          glsl::epipolarFromLight(grid.eyeDistance, glsl::lightFromWorld(columns.frame, glm::vec3(world.endsW[i])));
       ASSERT_GE(end.alpha, grid.alphaLower);
       ASSERT_LE(end.alpha, glsl::alphaUpper(grid));
       ASSERT_LE(glsl::thetaSteps(grid, end.theta), static_cast<float>(grid.thetaCount));

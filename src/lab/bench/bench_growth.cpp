@@ -1,6 +1,5 @@
 #include "base/progress.h"
 #include "lab/bench/bench.h"
-#include "lab/core/map_set.h"
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
 #include "truth/visibility.h"
@@ -46,37 +45,29 @@ class Curves {
   int repeats_;
 };
 
-// A scene with one light as one parameterization takes it, and a map to draw.
+// A light on a map whose stages are timed.
 class Subject {
  public:
   Subject(const Session& session, const Parameterization& kind, int side, const BenchOptions& options)
-      : session_(session),
-        passes_(session.device(), session.view()),
-        exact_(computeExact(session, kind)),
-        maps_(session, passes_.renderers, fitMap(session, kind, exact_, side, options.mapOptions).fitted, exact_,
-              options.cull) {}
+      : passes_(session),
+        lit_(openLight(session, passes_, kind, {.side = side, .options = options.mapOptions, .cull = options.cull})) {}
 
-  double build(MapContent content) { return maps_.redraw(content); }
-  double look(const char* bias) {
-    const Method method = methodFor(session_, {}, findBias(bias));
-    return timeVisibility(session_, passes_, maps_.with(method.bias->content), exact_, method, glsl::kFilterNone);
-  }
+  double build(MapContent content) { return lit_.redraw(content); }
+  double look(const char* bias) { return lit_.timeVisibility(atDefaults(findBias(bias), lit_.view())); }
   double bits() {
-    gpu::Commands commands(session_.device(), "bits");
-    passes_.renderers.volume.recordBits(commands, *maps_.with(MapContent::OneLayer).volume, Voxelization::Fused);
+    gpu::Commands commands(lit_.view().device(), "bits");
+    asVolume(lit_.occluders()).recordBits(commands, passes_.maps.programs(), Voxelization::Fused);
     return commands.submitAndWait().wallMs;
   }
   double trace() {
     const auto start = std::chrono::steady_clock::now();
-    computeTruth(session_.tracer(), exact_.light, exact_.receivers);
+    computeTruth(lit_.view().tracer(), lit_.light(), lit_.receivers());
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
 
  private:
-  const Session& session_;
-  Passes passes_;
-  Exact exact_;
-  MapSet maps_;
+  ShadowPasses passes_;
+  LightOnMap lit_;
 };
 
 Growth withTriangles(const gpu::DeviceOptions& device, const BenchOptions& options) {

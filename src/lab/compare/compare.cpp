@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/progress.h"
-#include "judge/filtered_truth.h"
 #include "lab/compare/robustness.h"
 #include "lab/compare/row_pictures.h"
 #include "lab/compare/tune.h"
@@ -14,7 +13,6 @@
 #include "lab/picture/unfold.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -25,9 +23,7 @@ namespace gnomon {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-TruthSummary summarize(const Parameterization& map, const Exact& exact) {
+TruthSummary summarize(const Parameterization& map, const GroundTruth& exact) {
   return {.map = map.name(),
           .light = lightFacts(exact.source.name, exact.light),
           .scored = exact.receivers.scored,
@@ -36,7 +32,8 @@ TruthSummary summarize(const Parameterization& map, const Exact& exact) {
           .outsideCone = exact.receivers.outsideCone,
           .margin = exact.truth.margin,
           .marginFlipsHalf = exact.truth.marginFlipsHalf,
-          .marginFlipsDouble = exact.truth.marginFlipsDouble};
+          .marginFlipsDouble = exact.truth.marginFlipsDouble,
+          .receiversAndTraceMs = exact.ms};
 }
 
 // A row before it is judged.
@@ -63,7 +60,7 @@ Params paramsOf(const Method& method, const FittedMap& fitted, const MapChoice& 
   return params;
 }
 
-void describe(Row& row, const Entry& entry, const Judged& judged) {
+void describe(Row& row, const Entry& entry, const LabelledResult& judged) {
   const BiasMethod& bias = *entry.method.bias;
   row.bias = bias.name;
   row.tuning = entry.tuning;
@@ -80,45 +77,38 @@ void describe(Row& row, const Entry& entry, const Judged& judged) {
   row.edgeOn = judged.edgeOn.size();
 }
 
-double rmseOf(const Exact& exact, std::span<const float> visibility, std::span<const float> truth) {
+double rmseOf(const Receivers& receivers, std::span<const float> visibility, std::span<const float> truth) {
   double sum = 0.0;
   for (size_t i = 0; i < truth.size(); ++i) {
-    if (exact.receivers.states[i] != PixelState::Scored) continue;
+    if (receivers.states[i] != PixelState::Scored) continue;
     const double difference = static_cast<double>(visibility[i]) - static_cast<double>(truth[i]);
     sum += difference * difference;
   }
-  return std::sqrt(sum / static_cast<double>(exact.receivers.scored));
+  return std::sqrt(sum / static_cast<double>(receivers.scored));
 }
 
 // Everything of one map: its rows, its summary, its pictures.
 class MapComparison {
  public:
-  MapComparison(const Session& session, const CompareOptions& options, Passes& passes,
+  MapComparison(const Session& session, const CompareOptions& options, ShadowPasses& passes,
                 const Parameterization& parameterization, const Light& source, std::string folder, Progress& progress)
-      : session_(session),
-        options_(options),
-        passes_(passes),
+      : options_(options),
         parameterization_(parameterization),
-        source_(source),
+        lit_(session, passes, parameterization, source, mapSetupOf(options, parameterization)),
         folder_(std::move(folder)),
         progress_(progress) {}
 
   // False where the camera sees nothing that faces the light.
   bool run(Comparison& comparison) {
     step("exact shadow");
-    const Clock::time_point start = Clock::now();
-    exact_ = computeExact(session_, parameterization_, source_);
-    if (exact_.receivers.scored == 0) return false;
-    TruthSummary summary = summarize(parameterization_, exact_);
-    summary.receiversAndTraceMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    if (lit_.receivers().scored == 0) return false;
+    TruthSummary summary = summarize(parameterization_, lit_.groundTruth());
     step("map");
-    const Fit fit =
-        fitMap(session_, parameterization_, exact_, mapSideOf(options_, parameterization_), options_.mapOptions);
-    summary.zNear = fit.fitted.zNear;
-    summary.zFar = fit.fitted.zFar;
-    summary.fitNote = fit.fitted.note;
-    summary.fitMs = fit.ms;
-    maps_ = std::make_unique<MapSet>(session_, passes_.renderers, fit.fitted, exact_, options_.cull);
+    const FittedMap& fitted = lit_.fitted();
+    summary.zNear = fitted.zNear;
+    summary.zFar = fitted.zFar;
+    summary.fitNote = fitted.note;
+    summary.fitMs = lit_.fitMs();
     for (const Filter* filter : options_.filters) filteredTruth(*filter);
 
     std::vector<Entry> entries = chooseEntries();
@@ -129,7 +119,7 @@ class MapComparison {
     }
     timeRows(entries);
     comparison.truths.push_back(summary);
-    comparison.maps.push_back(summarizeMap(fit.fitted));
+    comparison.maps.push_back(summarizeMap(fitted));
     comparison.rows.insert(comparison.rows.end(), rows_.begin(), rows_.end());
     return true;
   }
@@ -141,61 +131,60 @@ class MapComparison {
     const auto found = truths_.find(filter.id);
     if (found != truths_.end()) return found->second;
     FilteredTruth truth;
-    truth.visibility = computeFilteredTruth(session_.tracer(), exact_.light, exact_.receivers, exact_.truth,
-                                            maps_->fitted(), filter.id);
-    truth.beauty = toSrgb8(renderRadiance(session_, passes_, exact_, truth.visibility));
+    truth.visibility = lit_.filteredTruth(filter.id);
+    truth.beauty = toSrgb8(lit_.radiance(truth.visibility));
     return truths_.emplace(filter.id, std::move(truth)).first->second;
   }
 
   // Each bias at the options' knobs, and where a search is wanted once more at its best.
   std::vector<Entry> chooseEntries() {
     std::vector<Entry> entries;
-    for (const BiasMethod* bias : options_.biases) entries.push_back({.method = methodFor(session_, options_, *bias)});
+    for (const BiasMethod* bias : options_.biases)
+      entries.push_back({.method = methodFor(lit_.view(), options_, *bias)});
     if (!options_.tune) return entries;
     std::optional<Robustness> robustness;
-    if (options_.tuneElsewhere) robustness.emplace(session_, exact_, options_, parameterization_);
-    Trial trial(session_, passes_, exact_, *maps_);
+    if (options_.tuneElsewhere) robustness.emplace(lit_, options_);
+    TuningEvaluator evaluator(lit_);
     const size_t count = entries.size();
     for (size_t i = 0; i < count; ++i) {
       if (knobsOf(*entries[i].method.bias).empty()) continue;
       step(fmt::format("{}, searching its best knob", entries[i].method.bias->name));
-      const TunedMethod tuned = tune(trial, entries[i].method);
+      const TunedMethod tuned = tune(evaluator, entries[i].method);
       entries.push_back({.method = tuned.method, .tuning = robustness ? robustness->judge(tuned) : tuningOf(tuned)});
     }
     return entries;
   }
 
   void judgeEntry(const Entry& entry) {
-    const DrawnMap& map = maps_->with(entry.method.bias->content);
-    const Judged judged = judge(session_, passes_, map, exact_, entry.method);
+    const LabelledResult judged = lit_.judge(entry.method);
+    const FittedMap& fitted = lit_.fitted();
     for (const Filter* filter : options_.filters) {
       const FilteredTruth& truth = filteredTruth(*filter);
       std::vector<float> visibility =
-          filter->id == glsl::kFilterNone
-              ? judged.visibility
-              : gnomon::filteredVisibility(session_, passes_, map, exact_, entry.method, filter->id);
+          filter->id == glsl::kFilterNone ? judged.visibility : lit_.visibility(entry.method, filter->id);
       for (const size_t pixel : judged.edgeOn) visibility[pixel] = truth.visibility[pixel];
       Row row;
       row.map = parameterization_.name();
-      row.light = source_.name;
-      row.mapSide = map.fitted.map.side;
-      row.layers = map.fitted.map.layerCount;
-      row.mapTexels = size_t{1} * map.fitted.map.side * map.fitted.map.rows * map.fitted.map.layerCount;
-      row.mapDimensions = mapSizeText(map.fitted);
-      row.params = paramsOf(entry.method, map.fitted, options_);
+      row.light = lit_.source().name;
+      row.mapSide = fitted.map.side;
+      row.layers = fitted.map.layerCount;
+      row.mapTexels = size_t{1} * fitted.map.side * fitted.map.rows * fitted.map.layerCount;
+      row.mapDimensions = mapSizeText(fitted);
+      row.params = paramsOf(entry.method, fitted, options_);
       row.filter = filter->name;
       describe(row, entry, judged);
-      row.rmse = rmseOf(exact_, visibility, truth.visibility);
-      const int width = exact_.receivers.width, height = exact_.receivers.height;
+      row.rmse = rmseOf(lit_.receivers(), visibility, truth.visibility);
+      const int width = lit_.receivers().width, height = lit_.receivers().height;
       row.worstAcne = findWorstPlace(judged.labels, width, height, Label::Acne);
       row.worstLeak = findWorstPlace(judged.labels, width, height, Label::Leak);
       // Half a second a row at 1024 x 1024: what binary results have labels for.
       const bool flips = options_.filters.size() > 1 || filter->id != glsl::kFilterNone;
       Image8 beauty;
-      if (flips || !options_.outDir.empty()) beauty = toSrgb8(renderRadiance(session_, passes_, exact_, visibility));
+      if (flips || !options_.outDir.empty()) beauty = toSrgb8(lit_.radiance(visibility));
       if (flips) row.flip = computeFlip(truth.beauty, beauty).mean;
       if (!options_.outDir.empty())
-        row.pictures = writeRowPictures(exact_, judged, visibility, beauty, truth, namesOf(row), options_.outDir);
+        row.pictures =
+            writeRowPictures(lit_.groundTruth(), judged, visibility, beauty, truth, namesOf(row), options_.outDir);
       rows_.push_back(std::move(row));
     }
   }
@@ -205,7 +194,7 @@ class MapComparison {
     names.labelStem = fmt::format("{}/{}{}", folder_, row.bias, row.tuning ? ".tuned" : "");
     names.stem = names.labelStem + (row.filter == "none" ? "" : "." + row.filter);
     names.title = fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "", row.mapSide,
-                              maps_->fitted().map.rows);
+                              lit_.fitted().map.rows);
     names.writesLabels = row.filter == options_.filters.front()->name;
     return names;
   }
@@ -220,13 +209,12 @@ class MapComparison {
       step(round < 0 ? "timing, warm-up" : fmt::format("timing, {} of {}", round + 1, options_.repeats));
       std::map<MapContent, double> drawn;
       for (const BiasMethod* bias : options_.biases)
-        if (!drawn.contains(bias->content)) drawn[bias->content] = maps_->redraw(bias->content);
+        if (!drawn.contains(bias->content)) drawn[bias->content] = lit_.redraw(bias->content);
       if (round >= 0)
         for (const auto& [content, ms] : drawn) build[content].push_back(ms);
       for (size_t i = 0; i < shade.size(); ++i) {
         const Method& method = entries[i / filterCount].method;
-        const double ms = timeVisibility(session_, passes_, maps_->with(method.bias->content), exact_, method,
-                                         options_.filters[i % filterCount]->id);
+        const double ms = lit_.timeVisibility(method, options_.filters[i % filterCount]->id);
         if (round >= 0) shade[i].push_back(ms);
       }
     }
@@ -241,7 +229,7 @@ class MapComparison {
 
   MapSummary summarizeMap(const FittedMap& fitted) {
     MapSummary summary{.map = parameterization_.name(),
-                       .light = source_.name,
+                       .light = lit_.source().name,
                        .side = fitted.map.side,
                        .rows = fitted.map.rows,
                        .layers = fitted.map.layerCount,
@@ -252,26 +240,22 @@ class MapComparison {
     if (options_.outDir.empty()) return summary;
     const bool two =
         std::ranges::any_of(options_.biases, [](const BiasMethod* b) { return b->content == MapContent::TwoLayers; });
-    const DrawnMap& map = maps_->with(two ? MapContent::TwoLayers : MapContent::OneLayer);
+    const Occluders& drawn = lit_.occluders(two ? MapContent::TwoLayers : MapContent::OneLayer);
     const FilteredTruth& plain = filteredTruth(filters().front());
-    summary.pictures = writeMapPictures(session_, exact_, map, plain, options_.outDir, folder_);
+    summary.pictures = writeMapPictures(lit_.view().device(), lit_.receivers(), drawn, plain, options_.outDir, folder_);
     for (const Filter* filter : options_.filters)
       if (filter->id != glsl::kFilterNone)
-        summary.filteredTruths.emplace_back(filter->name,
-                                            writeFilteredTruth(exact_, filteredTruth(*filter), options_.outDir,
-                                                               fmt::format("{}/truth.{}", folder_, filter->name)));
+        summary.filteredTruths.emplace_back(
+            filter->name, writeFilteredTruth(lit_.receivers(), filteredTruth(*filter), options_.outDir,
+                                             fmt::format("{}/truth.{}", folder_, filter->name)));
     return summary;
   }
 
-  const Session& session_;
   const CompareOptions& options_;
-  Passes& passes_;
   const Parameterization& parameterization_;
-  const Light source_;
+  LightOnMap lit_;
   const std::string folder_;  // below outDir
   Progress& progress_;
-  Exact exact_;
-  std::unique_ptr<MapSet> maps_;
   std::map<int, FilteredTruth> truths_;  // by filter
   std::vector<Row> rows_;
 };
@@ -322,9 +306,9 @@ int stepsPerMap(const CompareOptions& options) {
 
 CompareOptions optionsFor(const CompareOptions& options, const Parameterization& map) {
   CompareOptions own = options;
-  std::erase_if(own.biases, [&](const BiasMethod* bias) { return !map.answers(*bias); });
+  std::erase_if(own.biases, [&](const BiasMethod* bias) { return !map.supportsBias(*bias); });
   std::erase_if(own.filters,
-                [&](const Filter* filter) { return filter->id != glsl::kFilterNone && !map.takesFilters(); });
+                [&](const Filter* filter) { return filter->id != glsl::kFilterNone && !map.supportsFilters(); });
   return own;
 }
 
@@ -340,7 +324,7 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   for (int i = 0; i < options.repeats; ++i) gbuffer.push_back(session.timeGBuffer());
   comparison.gbufferMs = median(gbuffer);
 
-  Passes passes(session.device(), session.view());
+  ShadowPasses passes(session);
   struct Job {
     const Parameterization* map;
     Light light;
@@ -360,7 +344,7 @@ Comparison compare(const Session& session, const CompareOptions& options) {
     const std::string folder = severalLights ? fmt::format("{}/light{}", map->name(), number) : map->name();
     MapComparison(session, own, passes, *map, light, folder, progress).run(comparison);
   }
-  if (comparison.rows.empty()) computeExact(session, *options.maps.front());  // says why
+  if (comparison.rows.empty()) openLight(session, passes, *options.maps.front(), {});  // says why
   if (severalLights) addSums(comparison);
   for (Row& row : comparison.rows) row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
   return comparison;

@@ -13,7 +13,7 @@ Params volumeParams(const FittedMap& fitted, const MapOptions& options) {
                    {"vsv_source", volumeSourceName(options.volumeSource)},
                    {"vsv_fit", volumeFitName(options.volumeFit)}};
   if (options.volumeSource == VolumeSource::Resample)
-    params.emplace_back("cube_size", fmt::format("{}", fitted.lookedUpIn->map.side));
+    params.emplace_back("cube_size", fmt::format("{}", fitted.occluderSource->map.side));
   return params;
 }
 

@@ -16,6 +16,7 @@ struct MapChoice {
 
 // The side of a map's layers, texels. Throws UsageError outside 2..16384.
 int mapSideOf(const MapChoice& choice, const Parameterization& map);
+MapSetup mapSetupOf(const MapChoice& choice, const Parameterization& map);
 
 struct KnobValue {
   const BiasKnob* knob = nullptr;
@@ -28,7 +29,7 @@ struct KnobChoices {
 };
 
 // A bias with its knobs as chosen, else at their defaults.
-Method methodFor(const Session& session, const KnobChoices& choices, const BiasMethod& bias);
+Method methodFor(const SceneView& view, const KnobChoices& choices, const BiasMethod& bias);
 
 double median(std::vector<double> values);
 

@@ -1,6 +1,7 @@
 #include "lab/core/setup.h"
 
 #include "base/error.h"
+#include "judge/ground_truth.h"
 
 #include <algorithm>
 #include <charconv>
@@ -83,12 +84,9 @@ Camera cameraThatSees(const Tracer& tracer) {
   return lookAt("sees the scene", eye, bounds.center(), kFov);
 }
 
-// The first light of a kind the map is made for, else the first it can make do with.
-Light firstLightFor(const Tracer& tracer, const Parameterization& map) {
-  for (const auto wanted : {Parameterization::Takes::Yes, Parameterization::Takes::IfNothingElse})
-    for (const Light& light : tracer.scene().lights)
-      if (map.takes(light.type) == wanted) return light;
-  return lightAboveCenter(tracer);
+Light defaultLight(const Tracer& tracer, const Parameterization& map) {
+  const Light* first = firstLightFor(tracer.scene(), map);
+  return first != nullptr ? *first : lightAboveCenter(tracer);
 }
 
 Light findLight(const Scene& scene, const std::string& text) {
@@ -169,7 +167,7 @@ glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
 
 Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {
   const Scene& scene = tracer.scene();
-  Light light = options.light.empty() ? firstLightFor(tracer, map) : findLight(scene, options.light);
+  Light light = options.light.empty() ? defaultLight(tracer, map) : findLight(scene, options.light);
   if (!options.direction.empty()) {
     const glm::vec3 direction = parseVec3("--direction", options.direction);
     if (glm::length(direction) == 0.0f) throw UsageError("--direction 0,0,0 has no direction; write x,y,z");
@@ -181,7 +179,7 @@ Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Param
       throw UsageError(fmt::format("--cone {}: a spot's full angle is 1..170 degrees", *options.coneDegrees));
     light.outerConeRad = static_cast<float>(glm::radians(0.5 * *options.coneDegrees));
   }
-  if (map.takes(light.type) == Parameterization::Takes::No)
+  if (map.supportsLight(light.type) == LightSupport::No)
     throw WorldError(
         fmt::format("--light {}: a directional light has no position, so a {} map cannot be made of it; take "
                     "--maps directional, or another light, or x,y,z",
@@ -192,10 +190,10 @@ Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Param
 std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {
   if (options.light != "all") return {chooseLight(options, tracer, map)};
   std::vector<Light> lights;
-  for (const auto wanted : {Parameterization::Takes::Yes, Parameterization::Takes::IfNothingElse}) {
+  for (const auto wanted : {LightSupport::Yes, LightSupport::Fallback}) {
     if (!lights.empty()) break;
     for (const Light& light : tracer.scene().lights) {
-      if (map.takes(light.type) != wanted) continue;
+      if (map.supportsLight(light.type) != wanted) continue;
       SetupOptions one = options;
       one.light = light.name;
       lights.push_back(chooseLight(one, tracer, map));

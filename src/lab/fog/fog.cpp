@@ -85,7 +85,7 @@ void writePictures(const FogOptions& options, FogResult& result) {
 
 FogResult runFog(const Session& session, const FogOptions& options) {
   FogResult result;
-  Passes passes(session.device(), session.view());
+  ShadowPasses passes(session);
   {
     Progress progress("fog", 2);
     progress.step("surfaces");
@@ -101,7 +101,7 @@ FogResult runFog(const Session& session, const FogOptions& options) {
                                .mapSide = options.mapSide,
                                .cull = options.cull,
                                .repeats = options.repeats};
-    const std::vector<FogMethodResult> measured = runFogMethods(session, passes.renderers, result.view, how);
+    const std::vector<FogMethodResult> measured = runFogMethods(session, passes, result.view, how);
     result.methods = how.methods;
     for (size_t i = 0; i < measured.size(); ++i) {
       result.rows.push_back(rowOf(how.methods[i], measured[i], options, result.view.lights.size()));
@@ -118,7 +118,7 @@ FogResult runFog(const Session& session, const FogOptions& options) {
   result.mediumExposure =
       mediumExposureFor(result.reference ? result.reference->inScattered : result.inScattered.front());
   if (result.reference) judgeRows(result);
-  if (options.motion) runMotion(session, passes.renderers, options, result);
+  if (options.motion) runMotion(session, passes, options, result);
   if (!options.outDir.empty()) writePictures(options, result);
   return result;
 }

@@ -4,7 +4,6 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "lab/compare/results.h"
-#include "lab/core/map_set.h"
 #include "lab/picture/pictures.h"
 
 #include <algorithm>
@@ -206,11 +205,11 @@ void FigureRun::unshadowedPanel(const std::string& name, const Parameterization&
   Panel panel{.name = name, .what = what, .says = says, .counts = {}, .command = {}, .picture = {}, .labels = {}};
   if (!run_.options().outDir.empty()) {
     const Session& session = run_.session();
-    const Exact exact = computeExact(session, map);
-    Passes passes(session.device(), session.view());
-    const std::vector<float> lit(exact.truth.lit.size(), 1.0f);
+    ShadowPasses passes(session);
+    const LightOnMap lit = openLight(session, passes, map, {});
+    const std::vector<float> everything(lit.truth().lit.size(), 1.0f);
     panel.picture = folder() + "/" + name + ".unshadowed.png";
-    writePng(run_.options().outDir / panel.picture, toSrgb8(renderRadiance(session, passes, exact, lit)));
+    writePng(run_.options().outDir / panel.picture, toSrgb8(lit.radiance(everything)));
   }
   figure().panels.push_back(panel);
 }
@@ -229,13 +228,11 @@ KnobValue knobOfScale(const Session& session, const char* bias, float share) {
 
 std::vector<FrameCost> timeFrames(const Session& session, const Parameterization& map,
                                   const std::vector<FrameKind>& kinds, int repeats, const std::string& progressTitle) {
-  const Exact exact = computeExact(session, map);
-  Passes passes(session.device(), session.view());
-  std::map<int, std::unique_ptr<MapSet>> maps;  // by side
+  ShadowPasses passes(session);
+  const LightOnMap light = openLight(session, passes, map, {});
+  std::map<int, LightOnMap> maps;  // by side
   for (const FrameKind& kind : kinds)
-    if (kind.bias != nullptr && !maps.contains(kind.mapSide))
-      maps[kind.mapSide] = std::make_unique<MapSet>(
-          session, passes.renderers, fitMap(session, map, exact, kind.mapSide, {}).fitted, exact, CullMode::Solids);
+    if (kind.bias != nullptr) maps.try_emplace(kind.mapSide, light, MapSetup{.side = kind.mapSide});
   Progress progress(progressTitle, repeats + 1);
   std::vector<std::vector<double>> mapMs(kinds.size());
   std::vector<std::vector<double>> visibilityMs = mapMs, shadeMs = mapMs, frameMs = mapMs, ratios = mapMs;
@@ -247,14 +244,13 @@ std::vector<FrameCost> timeFrames(const Session& session, const Parameterization
       const FrameKind& kind = kinds[i];
       double build = 0.0, visibility = 0.0, rest = session.timeGBuffer();
       if (kind.bias != nullptr) {
-        const Method method = methodFor(session, {}, *kind.bias);
-        MapSet& set = *maps.at(kind.mapSide);
+        LightOnMap& lit = maps.at(kind.mapSide);
         const std::pair key(kind.mapSide, kind.bias->content);
-        if (!drawn.contains(key)) drawn[key] = set.redraw(kind.bias->content);
+        if (!drawn.contains(key)) drawn[key] = lit.redraw(kind.bias->content);
         build = drawn[key];
-        visibility = timeVisibility(session, passes, set.with(kind.bias->content), exact, method, kind.filter->id);
+        visibility = lit.timeVisibility(atDefaults(*kind.bias, session), kind.filter->id);
       }
-      rest += timeRadiance(session, passes);
+      rest += passes.timeShading(session);
       const double frame = build + visibility + rest;
       if (i == 0) first = frame;
       if (round < 0) continue;

@@ -21,7 +21,8 @@ struct TruthSummary {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("map", &TruthSummary::map, {.says = "parameterization"}), field("light", &TruthSummary::light),
+        field("map", &TruthSummary::map, {.says = "parameterization"}),
+        field("light", &TruthSummary::light, {.says = "as the map takes it"}),
         field("scored", &TruthSummary::scored, {.unit = "pixels", .says = "that face the light within its cone"}),
         field("lit", &TruthSummary::lit, {.unit = "pixels", .says = "of the scored ones"}),
         field("facing_away", &TruthSummary::facingAway, {.unit = "pixels", .says = "not scored"}),
@@ -46,8 +47,8 @@ struct TexelSolidAngles {
   double smallest = 0.0, largest = 0.0;
 
   static constexpr auto fields() {
-    return std::tuple(field("smallest", &TexelSolidAngles::smallest, {.unit = "steradians"}),
-                      field("largest", &TexelSolidAngles::largest, {.unit = "steradians"}));
+    return std::tuple(field("smallest", &TexelSolidAngles::smallest, {.unit = "steradians", .says = "of any texel"}),
+                      field("largest", &TexelSolidAngles::largest, {.unit = "steradians", .says = "of any texel"}));
   }
 };
 

@@ -28,7 +28,7 @@ struct SceneFacts {
     return std::tuple(
         field("name", &SceneFacts::name, {.says = "as the scene calls itself"}),
         field("source", &SceneFacts::source, {.says = "file or generator", .absent = Absent::Earlier}),
-        field("triangles", &SceneFacts::triangles),
+        field("triangles", &SceneFacts::triangles, {.says = "of all meshes"}),
         field("sceneScale", &SceneFacts::sceneScale, {.unit = "metres", .says = "diagonal of its bounds"}));
   }
 };
@@ -41,7 +41,8 @@ struct CameraFacts {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("name", &CameraFacts::name), field("eye", &CameraFacts::eye, {.unit = "metres"}),
+        field("name", &CameraFacts::name, {.says = "as the scene or the command line has it"}),
+        field("eye", &CameraFacts::eye, {.unit = "metres", .says = "its position"}),
         field("forward", &CameraFacts::forward, {.says = "unit vector", .absent = Absent::Earlier}),
         field("up", &CameraFacts::up, {.says = "unit vector", .absent = Absent::Earlier}),
         field("fov_degrees", &CameraFacts::fovDegrees,
@@ -60,8 +61,10 @@ struct ResultsHead {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("schema", &ResultsHead::schema, {.says = "this version"}), field("gnomon", &ResultsHead::program),
-        field("scene", &ResultsHead::scene), field("camera", &ResultsHead::camera),
+        field("schema", &ResultsHead::schema, {.says = "this version"}),
+        field("gnomon", &ResultsHead::program, {.says = "the program"}),
+        field("scene", &ResultsHead::scene, {.says = "what is drawn"}),
+        field("camera", &ResultsHead::camera, {.says = "and the picture's size"}),
         field("gbuffer_ms", &ResultsHead::gbufferMs, {.unit = "ms", .says = "of the G-buffer; median, wall clock"}));
   }
 };

@@ -14,7 +14,8 @@ struct LightFacts {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("name", &LightFacts::name), field("type", &LightFacts::type, {.says = "point, spot, directional"}),
+        field("name", &LightFacts::name, {.says = "as the scene calls it"}),
+        field("type", &LightFacts::type, {.says = "point, spot, directional"}),
         field("position", &LightFacts::position,
               {.unit = "metres", .says = "not of a directional light", .absent = Absent::LeftOut}),
         field("intensity", &LightFacts::intensity,

@@ -48,10 +48,10 @@ struct ReferenceFacts {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("mean", &ReferenceFacts::mean, {.unit = "cd/m^2"}),
-        field("bound", &ReferenceFacts::bound,
-              {.says = "that the last doubling of a pixel's samples had to stay below, as a share of the mean"}),
-        field("worst_change", &ReferenceFacts::worstChange, {.says = "by the last doubling, as a share of the mean"}),
+        field("mean", &ReferenceFacts::mean, {.unit = "cd/m^2", .says = "over pixels and channels"}),
+        field("bound", &ReferenceFacts::bound, {.says = "the convergence tolerance, as a fraction of the mean"}),
+        field("worst_change", &ReferenceFacts::worstChange,
+              {.says = "of any pixel by its last doubling of samples, as a fraction of the mean"}),
         field("pixels_at_limit", &ReferenceFacts::atLimit, {.unit = "pixels", .says = "that ran out of doublings"}),
         field("doublings", &ReferenceFacts::doublings, {.says = "the most of any pixel"}),
         field("rays", &ReferenceFacts::rays, {.says = "of all pixels"}),
@@ -92,18 +92,20 @@ struct MediaResults : ResultsHead {
     return std::tuple_cat(
         ResultsHead::fields(),
         std::tuple(
-            field("lights", &MediaResults::lights), field("medium", &MediaResults::medium),
+            field("lights", &MediaResults::lights, {.says = "point and spot lights"}),
+            field("medium", &MediaResults::medium, {.says = "that scatters"}),
             field("exposure", &MediaResults::exposure, {.says = "the factor of the PNGs", .absent = Absent::Earlier}),
             field("reference", &MediaResults::reference, {.says = "null without `--truth`"}),
             field("worst_place", &MediaResults::worst,
-                  {.says = "null, or the square where the first row errs most for the brightness there"}),
+                  {.says =
+                       "null, or the square where the first row's error is largest relative to the brightness there"}),
             field("frames", &MediaResults::frames, {.says = "null, or the motion of `--frames`"}),
             field("rows", &MediaResults::noRows, {.says = "of `gnomon compare`: empty"}),
             field("maps", &MediaResults::noRows, {.says = "of `gnomon compare`: empty"}),
             field("truths", &MediaResults::noRows, {.says = "of `gnomon compare`: empty"}),
             field("media", &MediaResults::rows, {.says = "one an integrator and number of steps"}),
             field("equal_terms", &MediaResults::equalTerms,
-                  {.says = "how each other row stands against the baseline"})));
+                  {.says = "how each other row compares with the baseline"})));
   }
 };
 

@@ -49,7 +49,7 @@ struct Tuning {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("knob", &Tuning::knob, {.says = "the method's first"}),
+        field("knob", &Tuning::knob, {.says = "the bias's first parameter"}),
         field("value", &Tuning::value, {.says = "that errs least here"}),
         field("unit", &Tuning::unit, {.says = "of the value", .absent = Absent::Earlier}),
         field("evaluations", &Tuning::evaluations, {.says = "how many values were tried"}),
@@ -58,7 +58,7 @@ struct Tuning {
   }
 };
 
-// A knob of a bias, or what else sets the map and the method up. Knobs are numbers with a point.
+// A parameter of a bias (a number with a point), or what else sets the map and the method up.
 struct Param {
   std::string name;
   std::variant<std::string, int64_t, double> value;
@@ -104,8 +104,8 @@ struct Row {
                                    Hides hides = Hides::Never) {
     return field(name, count,
                  {.unit = "pixels",
-                  .says = "with this label",
-                  .shown = Shown::Count,
+                  .says = "with this label, of the unfiltered map",
+                  .kind = NumberKind::Count,
                   .title = title,
                   .table = table,
                   .hides = hides,
@@ -124,34 +124,38 @@ struct Row {
         field("map_texels", &Row::mapTexels, {.says = "of all layers, one depth each"}),
         field("map_dimensions", &Row::mapDimensions,
               {.says = "`map_size`, or a volume's voxels: alpha x theta x phi", .absent = Absent::Earlier}),
-        field("bias", &Row::bias), field("params", &Row::params, {.says = "below", .absent = Absent::Earlier}),
-        field("units", &Row::units, {.says = "of each knob among `params`", .absent = Absent::Earlier}),
+        field("bias", &Row::bias, {.says = "its name"}),
+        field("params", &Row::params, {.says = "below", .absent = Absent::Earlier}),
+        field("units", &Row::units,
+              {.says = "by name, of each of the bias's parameters among `params`", .absent = Absent::Earlier}),
         field("filter", &Row::filter, {.says = "`none`, `bilinear`, `jitter4x4`", .absent = Absent::Earlier}),
-        field("tuned", &Row::isTuned, {.says = "whether a knob was searched (`--tune`)"}),
+        field("tuned", &Row::isTuned, {.says = "whether its parameters were searched (`--tune`)"}),
         field("scored", &Row::scored,
-              {.unit = "pixels", .says = "that face the light and lie within its cone", .shown = Shown::Count}),
+              {.unit = "pixels", .says = "that face the light and lie within its cone", .kind = NumberKind::Count}),
         labelCount("agree", &Row::agree, "", {"agree", 9}), labelCount("acne", &Row::acne, "Acne", {"acne", 8}),
         labelCount("leak", &Row::leak, "Leak", {"leak", 8}),
         labelCount("edge_shadow", &Row::edgeShadow, "Edge, shadow", {"edge_sh", 8}),
         labelCount("edge_light", &Row::edgeLight, "Edge, light", {"edge_li", 8}),
         field("edge", &Row::edge,
-              {.unit = "pixels", .says = "both", .shown = Shown::Count, .metric = true, .inFile = false}),
+              {.unit = "pixels", .says = "both", .kind = NumberKind::Count, .metric = true, .inFile = false}),
         labelCount("uncovered", &Row::uncovered, "Uncovered", {"uncovered", 9}, Hides::OnPage),
-        field(
-            "grazing", &Row::grazing,
-            {.unit = "pixels",
-             .says = "whose texel ray does not meet their plane between near and far, where their own depth stands in",
-             .absent = Absent::Earlier,
-             .shown = Shown::Count}),
+        field("grazing", &Row::grazing,
+              {.unit = "pixels",
+               .says = "whose texel ray does not meet the receiver's plane between near and far; the receiver's own "
+                       "depth is used "
+                       "instead",
+               .absent = Absent::Earlier,
+               .kind = NumberKind::Count}),
         field("edge_on", &Row::edgeOn,
               {.unit = "pixels",
-               .says = "that the shader's floats take for facing away and the truth does not: edge-on within rounding, "
-                       "counted as agreeing",
+               .says = "that face away in the shader's floats but not in double precision: edge-on within rounding, "
+                       "counted as "
+                       "agreeing",
                .absent = Absent::Earlier,
-               .shown = Shown::Count}),
+               .kind = NumberKind::Count}),
         field("bias_error", &Row::biasError,
               {.says = "(acne + leak) / scored",
-               .shown = Shown::Share,
+               .kind = NumberKind::Share,
                .table = {"bias error", 10, 4},
                .ranks = true,
                .metric = true}),
@@ -169,17 +173,17 @@ struct Row {
         field("build_ms", &Row::buildMs,
               {.unit = "ms",
                .says = "of the map; median of `--repeats`, wall clock",
-               .shown = Shown::Milliseconds,
+               .kind = NumberKind::Milliseconds,
                .title = "Build ms",
                .table = {"build ms", 9, 2}}),
         field("shade_ms", &Row::shadeMs,
               {.unit = "ms",
                .says = "of the visibility pass; likewise",
-               .shown = Shown::Milliseconds,
+               .kind = NumberKind::Milliseconds,
                .title = "Shade ms",
                .table = {"shade ms", 9, 2}}),
         field("frame_ms", &Row::frameMs,
-              {.unit = "ms", .says = "`gbuffer_ms` and both", .shown = Shown::Milliseconds, .title = "Frame ms"}),
+              {.unit = "ms", .says = "`gbuffer_ms` and both", .kind = NumberKind::Milliseconds, .title = "Frame ms"}),
         field("tuning", &Row::tuning, {.says = "null, or as below"}),
         field("worst_acne", &Row::worstAcne, {.says = "null, or the square of the picture with most of it"}),
         field("worst_leak", &Row::worstLeak, {.says = "likewise"}),

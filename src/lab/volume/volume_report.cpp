@@ -146,10 +146,10 @@ Json vec3Json(const glm::vec3& v) {
 }  // namespace
 
 std::string volumeTable(const Session& session, const VolumeOptions& options, const VolumeResult& result) {
-  const glsl::EpipolarGrid& grid = result.fitted.grid;
+  const glsl::EpipolarGrid& grid = result.columns.map.epipolar;
   std::string text =
       line("scene", fmt::format("{}, {} triangles; light '{}'; camera '{}'", session.scene().name,
-                                triangleCount(session.scene()), result.exact.source.name, session.camera().name)) +
+                                triangleCount(session.scene()), result.light.name, session.camera().name)) +
       line("volume", fmt::format("{} x {} x {} (alpha x theta x phi), {}{}, {}", grid.alphaCount, grid.thetaCount,
                                  grid.phiCount, volumeSourceName(options.map.volumeSource),
                                  options.map.volumeSource == VolumeSource::Resample
@@ -176,8 +176,8 @@ std::string volumeTable(const Session& session, const VolumeOptions& options, co
 }
 
 std::string volumeJson(const Session& session, const VolumeOptions& options, const VolumeResult& result) {
-  const glsl::EpipolarGrid& grid = result.fitted.grid;
-  const glsl::LightFrame& frame = result.fitted.columns.frame;
+  const glsl::EpipolarGrid& grid = result.columns.map.epipolar;
+  const glsl::LightFrame& frame = result.columns.frame;
   Json json;
   json["schema"] = kVolumeReportVersion;
   json["gnomon"] = {{"version", gnomonVersion()},
@@ -185,7 +185,7 @@ std::string volumeJson(const Session& session, const VolumeOptions& options, con
                     {"driver", session.device().info().driver}};
   json["command"] = options.command;
   json["scene"] = {{"name", session.scene().name}, {"triangles", triangleCount(session.scene())}};
-  json["light"] = {{"name", result.exact.source.name}, {"position", vec3Json(frame.originW)}};
+  json["light"] = {{"name", result.light.name}, {"position", vec3Json(frame.originW)}};
   json["camera"] = {{"name", session.camera().name}, {"eye", vec3Json(session.view().eyeW)}};
   json["volume"] = {{"source", volumeSourceName(options.map.volumeSource)},
                     {"fit", volumeFitName(options.map.volumeFit)},

@@ -1,6 +1,6 @@
 // The exact shadow through a kernel, where it can be said what it must be.
-#include "judge/filtered_truth.h"
-#include "map_fixture.h"
+#include "lit_map.h"
+#include "planar/planar_map.h"
 
 #include "shared/filter.glsl"
 
@@ -11,20 +11,17 @@
 namespace gnomon {
 namespace {
 
-class FilteredTruthTest : public gpu::GpuTest {
- protected:
-  std::vector<float> filtered(const test::Rendered& r, int kind) {
-    const Truth truth = computeTruth(*r.tracer, r.light, r.receivers);
-    return computeFilteredTruth(*r.tracer, r.light, r.receivers, truth, r.fitted, kind);
-  }
-};
+using test::LitMap;
+
+class FilteredTruthTest : public gpu::GpuTest {};
 
 TEST_F(FilteredTruthTest, WithoutAFilterItIsTheTruth) {
-  const test::Rendered r = test::render(device(), "contact", spotParameterization(), 128, 64, CullMode::Solids);
-  const Truth truth = computeTruth(*r.tracer, r.light, r.receivers);
-  const std::vector<float> visibility = filtered(r, glsl::kFilterNone);
+  const LitMap contact(device(), "contact", spotParameterization(), 128, {.side = 64});
+  const Receivers& receivers = contact.lit.receivers();
+  const Truth& truth = contact.lit.truth();
+  const std::vector<float> visibility = contact.lit.filteredTruth(glsl::kFilterNone);
   for (size_t i = 0; i < visibility.size(); ++i) {
-    if (r.receivers.states[i] != PixelState::Scored) continue;
+    if (receivers.states[i] != PixelState::Scored) continue;
     ASSERT_EQ(visibility[i], truth.lit[i] != 0 ? 1.0f : 0.0f);
   }
 }
@@ -32,15 +29,15 @@ TEST_F(FilteredTruthTest, WithoutAFilterItIsTheTruth) {
 // Nothing casts a shadow into the corner: its walls meet, and past a crease the receiver's plane runs behind
 // a wall.
 TEST_F(FilteredTruthTest, AConcaveCreaseCastsNoShadow) {
-  const test::Rendered r = test::render(device(), "corner", spotParameterization(), 128, 37, CullMode::Solids);
-  const Truth truth = computeTruth(*r.tracer, r.light, r.receivers);
-  ASSERT_EQ(truth.litCount, r.receivers.scored);
+  const LitMap corner(device(), "corner", spotParameterization(), 128, {.side = 37});
+  const Receivers& receivers = corner.lit.receivers();
+  ASSERT_EQ(corner.lit.truth().litCount, receivers.scored);
   size_t inside = 0;
   for (const int kind : {glsl::kFilterBilinear, glsl::kFilterJitter4x4}) {
-    const std::vector<float> visibility = filtered(r, kind);
+    const std::vector<float> visibility = corner.lit.filteredTruth(kind);
     for (size_t i = 0; i < visibility.size(); ++i) {
-      const glm::dvec3& at = r.receivers.samples[i].positionW;
-      if (r.receivers.states[i] != PixelState::Scored || std::max({at.x, at.y, at.z}) > 3.0) continue;
+      const glm::dvec3& at = receivers.samples[i].positionW;
+      if (receivers.states[i] != PixelState::Scored || std::max({at.x, at.y, at.z}) > 3.0) continue;
       ++inside;
       ASSERT_EQ(visibility[i], 1.0f) << i << " kernel " << kind;
     }
@@ -51,17 +48,18 @@ TEST_F(FilteredTruthTest, AConcaveCreaseCastsNoShadow) {
 // Away from shadow edges by more than the kernel reaches, it is the truth; at them it is between, and its
 // mean over the picture is the truth's: a symmetric kernel takes as much as it gives along a straight edge.
 TEST_F(FilteredTruthTest, ItSoftensEdgesAndKeepsTheMean) {
-  const test::Rendered r = test::render(device(), "lshape", directionalParameterization(), 256, 128, CullMode::Solids);
-  const Truth truth = computeTruth(*r.tracer, r.light, r.receivers);
+  const LitMap block(device(), "lshape", directionalParameterization(), 256, {.side = 128});
+  const Receivers& receivers = block.lit.receivers();
+  const Truth& truth = block.lit.truth();
   double lit = 0.0;
   for (const uint8_t l : truth.lit) lit += l;
   size_t before = 0;
   for (const int kind : {glsl::kFilterBilinear, glsl::kFilterJitter4x4}) {
-    const std::vector<float> visibility = filtered(r, kind);
+    const std::vector<float> visibility = block.lit.filteredTruth(kind);
     double sum = 0.0;
     size_t between = 0;
     for (size_t i = 0; i < visibility.size(); ++i) {
-      if (r.receivers.states[i] != PixelState::Scored) continue;
+      if (receivers.states[i] != PixelState::Scored) continue;
       sum += static_cast<double>(visibility[i]);
       between += visibility[i] > 0.0f && visibility[i] < 1.0f ? 1 : 0;
     }

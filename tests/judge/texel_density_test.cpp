@@ -1,7 +1,6 @@
 // Density against windows whose texels are known, and against counting texels.
 #include "judge/texel_density.h"
-#include "map_fixture.h"
-#include "seen_scene.h"
+#include "tests/shadow/seen_scene.h"
 
 #include <cmath>
 #include <set>
