@@ -26,7 +26,7 @@ void run(const char* sceneName, const char* path) {
   const Method adaptive = atDefaults(findBias("adaptive"), seen);
   const std::vector<float> visibility = lit.visibility(adaptive, glsl::kFilterBilinear);
 
-  // A white surface as far from the light as the camera has half of the light's colour.
+  // So that a white surface as far from the light as the camera has radiance 0.5.
   const float distance = glm::distance(seen.view().eyeW, glm::vec3(lit.light().positionW));
   const Exposure exposure{.lightColor = lit.source().color * (0.5f * distance * distance), .ambient = glm::vec3(0.05f)};
   writePng(path, toSrgb8(lit.radiance(visibility, exposure)));

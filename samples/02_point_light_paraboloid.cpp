@@ -1,5 +1,5 @@
-// A point light with a dual-paraboloid map of the same number of texels as the cube of 01: two layers instead of six. The
-// bias of Weiskopf & Ertl takes half of what lies between the two nearest depths.
+// A point light with a dual-paraboloid map of the same number of texels as the cube of 01: two layers instead of six.
+// The bias of Weiskopf & Ertl takes half of what lies between the two nearest depths.
 //
 //   02_point_light_paraboloid [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
@@ -29,7 +29,7 @@ void run(const char* sceneName, const char* path) {
   const Method dual = atDefaults(findBias("dual"), seen);
   const std::vector<float> visibility = lit.visibility(dual, glsl::kFilterBilinear);
 
-  // A white surface as far from the light as the camera has half of the light's colour.
+  // So that a white surface as far from the light as the camera has radiance 0.5.
   const float distance = glm::distance(seen.view().eyeW, glm::vec3(lit.light().positionW));
   const Exposure exposure{.lightColor = lit.source().color * (0.5f * distance * distance), .ambient = glm::vec3(0.05f)};
   writePng(path, toSrgb8(lit.radiance(visibility, exposure)));

@@ -1,5 +1,5 @@
-// A point light with a voxelized shadow volume: one bit a voxel for all of what the camera can see, here looked up at its
-// surfaces by the adjacent-voxel rule (Dou et al. 2014, section 3.3).
+// A point light with a voxelized shadow volume: one bit a voxel for all of what the camera can see, here looked up at
+// its surfaces by the adjacent-voxel rule (Dou et al. 2014, section 3.3).
 //
 //   03_shadow_volume [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
@@ -27,7 +27,7 @@ void run(const char* sceneName, const char* path) {
                  {.options = {.volumeSize = kSize}, .receiversW = std::vector<glm::dvec3>()});
   const std::vector<float> visibility = lit.visibility(atDefaults(findBias("adaptive"), seen));
 
-  // A white surface as far from the light as the camera has half of the light's colour.
+  // So that a white surface as far from the light as the camera has radiance 0.5.
   const float distance = glm::distance(seen.view().eyeW, glm::vec3(lit.light().positionW));
   const Exposure exposure{.lightColor = lit.source().color * (0.5f * distance * distance), .ambient = glm::vec3(0.05f)};
   writePng(path, toSrgb8(lit.radiance(visibility, exposure)));

@@ -21,8 +21,7 @@ bool volumeSupportsBias(const BiasMethod& method);
 // How the bits are made of the occluders. Both give the same bits.
 enum class Voxelization {
   // One pass: an invocation takes 128 columns, clears their texels as far as a bit is set, sets the first
-  // occluded voxel of each,
-  // and ORs along alpha.
+  // occluded voxel of each, and ORs along alpha.
   Fused,
   // The papers' way: the whole volume is cleared, then the first voxels are set, then all is scanned.
   Passes,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include <gtest/gtest.h>
+
 namespace gnomon {
 namespace {
 

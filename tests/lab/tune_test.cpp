@@ -79,7 +79,7 @@ TEST_F(TuneTest, RobustnessIsNeverBetterThanTheBestThere) {
   for (const Transfer* transfer :
        {static_cast<const Transfer*>(&*tuning.otherCamera), static_cast<const Transfer*>(&*tuning.otherMapSize)}) {
     EXPECT_GE(transfer->biasError, transfer->bestBiasError);
-    EXPECT_GT(transfer->bestValue, 0.0f);
+    EXPECT_GT(transfer->bestValue, 0.0);
   }
   EXPECT_EQ(tuning.otherMapSize->mapSize, 32);
   // A constant tuned for small texels is too small for large ones.

@@ -1,6 +1,6 @@
 // The visibility shader end to end, against exact rays: scenes with a known answer, and one golden picture a
 // method.
-#include "planar/planar_map.h"
+#include "map_fixture.h"
 #include "tests/golden_picture.h"
 #include "tests/judge/lit_map.h"
 
@@ -59,10 +59,13 @@ TEST_F(VisibilityPassTest, AnUnknownMethodIsMarkedForMagenta) {
 }
 
 TEST_F(VisibilityPassTest, GoldenPictures) {
-  LitMap spot(device(), "contact", spotParameterization(), 256, {.side = 128});
+  // A point light, made to shine as the fixture of this folder has it.
+  LitMap contact(device(), "contact", spotParameterization(), 256, {.side = 128});
+  const LightModel aimed = test::render(device(), "contact", spotParameterization(), 256, 128, CullMode::Solids).light;
+  LightOnMap spot(contact.seen, contact.passes, spotParameterization(), contact.lit.source(), aimed, {.side = 128});
   for (const BiasMethod& method : biasMethods())
-    test::compareWithGolden(std::string("contact_spot_") + method.name, spot.judge(method).visibility, 256,
-                            isLavapipe());
+    test::compareWithGolden(std::string("contact_spot_") + method.name,
+                            spot.judge(atDefaults(method, contact.seen)).visibility, 256, isLavapipe());
   LitMap sun(device(), "lshape", directionalParameterization(), 256, {.side = 64});
   for (const BiasMethod& method : biasMethods())
     test::compareWithGolden(std::string("lshape_directional_") + method.name, sun.judge(method).visibility, 256,
