@@ -8,6 +8,7 @@
 #include "lab/results/results_file.h"
 #include "tests/gpu_fixture.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -53,7 +54,10 @@ Kind expectSameWhenRead(const std::string& text) {
   const TemporaryFolder folder;
   writeTextFile(folder.path() / "results.json", text);
   const Kind read = std::get<Kind>(readResults(folder.path()));
-  EXPECT_EQ(resultsText(read), text);
+  const std::string again = resultsText(read);
+  const auto [a, b] = std::ranges::mismatch(again, text);
+  EXPECT_TRUE(again == text) << "from here on: " << std::string(a, again.end()).substr(0, 200) << "\n, not "
+                             << std::string(b, text.end()).substr(0, 200);
   return read;
 }
 

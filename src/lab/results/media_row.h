@@ -25,9 +25,9 @@ struct MediaRow {
   static constexpr auto fields() {
     return std::tuple(
         field("integrator", &MediaRow::integrator, {.says = "`runs`, `bits`, `popcount`, `march`"}),
-        field("steps", &MediaRow::steps, {.says = "samples a view ray, or null"}),
+        field("steps", &MediaRow::steps, {.says = "samples per view ray, or null"}),
         field("baseline", &MediaRow::isBaseline,
-              {.says = "whether the others are held against it", .absent = Absent::Earlier}),
+              {.says = "whether the other rows are compared with this one", .absent = Absent::Earlier}),
         field("map", &MediaRow::map, {.says = "`vsv`, `cube`, `paraboloid`"}),
         field("params", &MediaRow::params,
               {.says = "`map_size`, `lights`, `vsv_source`, `vsv_fit`, `cube_size`, `cull`"}),
@@ -55,7 +55,7 @@ struct MediaRow {
                .hides = Hides::OnPage,
                .least = 0}),
         field("flicker", &MediaRow::flicker,
-              {.says = "as docs/media.md has it",
+              {.says = "of `--frames`, as docs/media.md defines it, or null",
                .kind = NumberKind::Error,
                .title = "Flicker",
                .table = {"flicker", 9, 5},
@@ -63,22 +63,23 @@ struct MediaRow {
                .least = 0}),
         field("map_ms", &MediaRow::mapMs,
               {.unit = "ms",
-               .says = "of the volume or map; medians of `--repeats`, wall clock, all lights together",
+               .says = "drawing the volume or map; median of `--repeats`, wall clock, all lights together",
                .kind = NumberKind::Milliseconds,
                .title = "Map ms",
                .table = {"map ms", 9, 2},
                .least = 0}),
         field("table_ms", &MediaRow::tableMs,
               {.unit = "ms",
-               .says = "of the running integral; likewise",
+               .says = "tabulating the running integral; likewise",
                .kind = NumberKind::Milliseconds,
                .title = "Table ms",
                .table = {"table ms", 9, 2},
                .least = 0}),
-        field("build_ms", &MediaRow::buildMs, {.unit = "ms", .says = "their sum", .kind = NumberKind::Milliseconds}),
+        field("build_ms", &MediaRow::buildMs,
+              {.unit = "ms", .says = "`map_ms` + `table_ms`", .kind = NumberKind::Milliseconds}),
         field("integrate_ms", &MediaRow::integrateMs,
               {.unit = "ms",
-               .says = "of integrating; likewise",
+               .says = "integrating; likewise",
                .kind = NumberKind::Milliseconds,
                .title = "Integral ms",
                .table = {"integrate ms", 13, 2},
@@ -90,7 +91,7 @@ struct MediaRow {
                .title = "All ms",
                .table = {"all ms", 9, 2},
                .inFile = false}),
-        field("pictures", &MediaRow::pictures, {.says = "paths, below"}));
+        field("pictures", &MediaRow::pictures, {.says = "paths relative to results.json; below"}));
   }
 };
 
@@ -106,7 +107,7 @@ struct Factor {
   Bound bound = Bound::Exact;
 
   static constexpr auto fields() {
-    return std::tuple(field("factor", &Factor::value, {.says = "more than 1: the row is better"}),
+    return std::tuple(field("factor", &Factor::value, {.says = "above 1, the row is better"}),
                       field("bound", &Factor::bound, {.says = "below"}));
   }
 };
@@ -130,8 +131,8 @@ struct EqualTerms {
     return std::tuple(
         field("integrator", &EqualTerms::integrator, {.says = "of the row"}),
         field("steps", &EqualTerms::steps, {.says = "of the row"}),
-        field("against", &EqualTerms::against, {.says = "the baseline's integrator"}),
-        field("with_build", &EqualTerms::withBuild, {.says = "whether maps, volumes and tables count"}),
+        field("against", &EqualTerms::against, {.says = "integrator of the baseline"}),
+        field("with_build", &EqualTerms::withBuild, {.says = "whether maps, volumes and tables are counted"}),
         field("measure", &EqualTerms::measure, {.says = "`rel_rmse` or `rel_rmse_99`"}),
         field("faster_at_equal_error", &EqualTerms::faster, {.says = "the baseline's time over the row's"}),
         field("less_error_at_equal_time", &EqualTerms::better, {.says = "the baseline's error over the row's"}));
