@@ -30,7 +30,7 @@ CompareOptions optionsWith(VolumeSource source, VolumeFit fit) {
 }
 
 // Everything but the times.
-std::string runTwiceEqual(const Session& session, const SetupOptions& setup, const CompareOptions& options) {
+std::string runTwiceEqual(const Session& session, const CompareOptions& options) {
   std::string first;
   for (int i = 0; i < 2; ++i) {
     Comparison comparison = compare(session, options);
@@ -52,7 +52,7 @@ TEST(VolumeCompare, ItsRowsHaveTheBiasesThatMeanSomethingAndAddUp) {
        {std::pair(VolumeSource::Direct, VolumeFit::Frustum), std::pair(VolumeSource::Resample, VolumeFit::Full)}) {
     CompareOptions options = optionsWith(source, fit);
     options.outDir = folder.path();
-    const Json json = Json::parse(runTwiceEqual(session, setup, options));
+    const Json json = Json::parse(runTwiceEqual(session, options));
     std::set<std::string> biases;
     size_t cubeRows = 0;
     for (const Json& row : json.at("rows")) {

@@ -66,7 +66,7 @@ std::optional<std::string> crossed(const Threshold& threshold, const std::vector
     if (!threshold.map.empty() && threshold.map != row.map) continue;
     if (!threshold.bias.empty() && threshold.bias != row.bias) continue;
     double value = metric.of(row).value_or(0.0);
-    const bool pixels = metric.notes.shown == Shown::Count;
+    const bool pixels = metric.notes.kind == NumberKind::Count;
     if (threshold.percent) value *= pixels ? 100.0 / static_cast<double>(row.scored) : 100.0;
     const bool beyond = threshold.below ? value < threshold.limit : value > threshold.limit;
     if (beyond || (threshold.orEqual && value == threshold.limit))

@@ -59,8 +59,8 @@ TemplateData rowView(const MediaRow& row, size_t rank, const MediaResults& media
   view.set("open", rank == 1);
   view.set("name", row.name());
   view.set("map", row.map);
-  view.set("score",
-           hasErrors(media) ? cellText({.shown = Shown::Error}, row.relRmse) : fmt::format("{:.2f} ms", row.totalMs()));
+  view.set("score", hasErrors(media) ? cellText({.kind = NumberKind::Error}, row.relRmse)
+                                     : fmt::format("{:.2f} ms", row.totalMs()));
   view.set("cells", columns.cells(row));
   view.set("width", std::to_string(media.camera.width));
   view.set("height", std::to_string(media.camera.height));

@@ -62,16 +62,16 @@ bool isShaded(const std::string& kind) {
 
 std::string cellText(const FieldNotes& notes, const std::optional<double>& value) {
   if (!value) return "–";
-  switch (notes.shown) {
-    case Shown::Count:
+  switch (notes.kind) {
+    case NumberKind::Count:
       return grouped(static_cast<uint64_t>(*value));
-    case Shown::Share:
+    case NumberKind::Share:
       return percent(*value);
-    case Shown::Error:
+    case NumberKind::Error:
       return errorText(*value);
-    case Shown::Milliseconds:
+    case NumberKind::Milliseconds:
       return fmt::format("{:.2f}", *value);
-    case Shown::Number:
+    case NumberKind::Plain:
       break;
   }
   return fmt::format("{:.4f}", *value);

@@ -21,23 +21,25 @@ struct TruthSummary {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("map", &TruthSummary::map, {.says = "parameterization"}), field("light", &TruthSummary::light),
+        field("map", &TruthSummary::map, {.says = "parameterization"}),
+        field("light", &TruthSummary::light, {.says = "as this map treats it; below"}),
         field("scored", &TruthSummary::scored, {.unit = "pixels", .says = "that face the light within its cone"}),
-        field("lit", &TruthSummary::lit, {.unit = "pixels", .says = "of the scored ones"}),
+        field("lit", &TruthSummary::lit, {.unit = "pixels", .says = "scored and lit"}),
         field("facing_away", &TruthSummary::facingAway, {.unit = "pixels", .says = "not scored"}),
         field("outside_cone", &TruthSummary::outsideCone, {.unit = "pixels", .says = "not scored"}),
-        field("margin", &TruthSummary::margin, {.unit = "metres", .says = "the end margin, above"}),
+        field("margin", &TruthSummary::margin, {.unit = "metres", .says = "the end margin (above)"}),
         field("margin_flips_half", &TruthSummary::marginFlipsHalf,
               {.unit = "pixels", .says = "that change when the margin is halved"}),
         field("margin_flips_double", &TruthSummary::marginFlipsDouble,
-              {.unit = "pixels", .says = "that change when it is doubled"}),
-        field("z_near", &TruthSummary::zNear, {.unit = "metres", .says = "of the fitted map's first layer"}),
-        field("z_far", &TruthSummary::zFar, {.unit = "metres", .says = "of the fitted map's first layer"}),
+              {.unit = "pixels", .says = "that change when the margin is doubled"}),
+        field("z_near", &TruthSummary::zNear, {.unit = "metres", .says = "of the fitted map's first slice"}),
+        field("z_far", &TruthSummary::zFar, {.unit = "metres", .says = "of the fitted map's first slice"}),
         field("fit_note", &TruthSummary::fitNote,
               {.says = "why a warp was weakened or not applied; else empty", .absent = Absent::Earlier}),
         field("trace_ms", &TruthSummary::receiversAndTraceMs,
-              {.unit = "ms", .says = "of finding the receivers and tracing", .absent = Absent::Earlier}),
-        field("fit_ms", &TruthSummary::fitMs, {.unit = "ms", .says = "of fitting the map", .absent = Absent::Earlier}));
+              {.unit = "ms", .says = "finding the receivers and tracing; wall clock", .absent = Absent::Earlier}),
+        field("fit_ms", &TruthSummary::fitMs,
+              {.unit = "ms", .says = "fitting the map; wall clock", .absent = Absent::Earlier}));
   }
 };
 
@@ -46,8 +48,8 @@ struct TexelSolidAngles {
   double smallest = 0.0, largest = 0.0;
 
   static constexpr auto fields() {
-    return std::tuple(field("smallest", &TexelSolidAngles::smallest, {.unit = "steradians"}),
-                      field("largest", &TexelSolidAngles::largest, {.unit = "steradians"}));
+    return std::tuple(field("smallest", &TexelSolidAngles::smallest, {.unit = "steradians", .says = "of all texels"}),
+                      field("largest", &TexelSolidAngles::largest, {.unit = "steradians", .says = "of all texels"}));
   }
 };
 
@@ -62,16 +64,18 @@ struct MapSummary {
   static constexpr auto fields() {
     return std::tuple(
         field("map", &MapSummary::map, {.says = "parameterization"}),
-        field("light", &MapSummary::light, {.says = "its name", .absent = Absent::Earlier}),
-        field("map_size", &MapSummary::side,
-              {.unit = "texels", .says = "a side of a layer", .absent = Absent::Earlier}),
+        field("light", &MapSummary::light, {.says = "name of the light", .absent = Absent::Earlier}),
+        field("map_size", &MapSummary::side, {.unit = "texels", .says = "width of a slice", .absent = Absent::Earlier}),
         field("map_rows", &MapSummary::rows,
-              {.unit = "texels", .says = "the other side of a layer", .absent = Absent::Earlier}),
-        field("layers", &MapSummary::layers, {.says = "faces, halves or cascades", .absent = Absent::Earlier}),
-        field("z_near", &MapSummary::zNear, {.unit = "metres", .says = "of the first layer"}),
-        field("z_far", &MapSummary::zFar, {.unit = "metres", .says = "of the first layer"}),
-        field("texel_solid_angle", &MapSummary::solidAngles, {.says = "null where a map does not look around a point"}),
-        field("pictures", &MapSummary::pictures, {.says = "paths, below", .absent = Absent::Earlier}),
+              {.unit = "texels", .says = "height of a slice", .absent = Absent::Earlier}),
+        field("layers", &MapSummary::layers,
+              {.says = "number of slices: faces, halves, cascades", .absent = Absent::Earlier}),
+        field("z_near", &MapSummary::zNear, {.unit = "metres", .says = "of the first slice"}),
+        field("z_far", &MapSummary::zFar, {.unit = "metres", .says = "of the first slice"}),
+        field("texel_solid_angle", &MapSummary::solidAngles,
+              {.says = "null unless the map covers directions around a point; below"}),
+        field("pictures", &MapSummary::pictures,
+              {.says = "paths relative to results.json; below", .absent = Absent::Earlier}),
         field("truth_filtered", &MapSummary::filteredTruths,
               {.says = "by filter, {`visibility`, `beauty`} of the truth through the same kernel",
                .absent = Absent::Earlier}));
@@ -91,12 +95,13 @@ struct Comparison : ResultsHead {
   static constexpr auto fields() {
     return std::tuple_cat(
         ResultsHead::fields(),
-        std::tuple(field("light", &Comparison::firstLight, {.says = "of the first map"}),
-                   field("truth", &Comparison::firstTruth, {.says = "of the first map"}),
-                   field("truths", &Comparison::truths, {.says = "one a map and light"}),
-                   field("maps", &Comparison::maps, {.says = "one a map and light", .absent = Absent::Earlier}),
-                   field("rows", &Comparison::rows, {.says = "as they ran"}),
-                   field("media", &Comparison::noMedia, {.says = "of `gnomon fog`: empty"})));
+        std::tuple(
+            field("light", &Comparison::firstLight, {.says = "of the first map; below"}),
+            field("truth", &Comparison::firstTruth, {.says = "of the first map; below"}),
+            field("truths", &Comparison::truths, {.says = "one per map and light; below"}),
+            field("maps", &Comparison::maps, {.says = "one per map and light; below", .absent = Absent::Earlier}),
+            field("rows", &Comparison::rows, {.says = "one per method, map, light and filter; below"}),
+            field("media", &Comparison::noMedia, {.says = "empty (rows of `gnomon fog`)"})));
   }
 };
 

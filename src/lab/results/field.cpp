@@ -7,7 +7,7 @@ namespace gnomon {
 std::string tableCell(const FieldNotes& notes, std::optional<double> value) {
   const TableColumn& column = notes.table;
   std::string text;
-  if (value && notes.shown == Shown::Share)
+  if (value && notes.kind == NumberKind::Share)
     text = fmt::format("{:.{}f}%", 100.0 * *value, column.decimals);
   else if (value)
     text = fmt::format("{:.{}f}", *value, column.decimals);

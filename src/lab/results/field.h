@@ -23,8 +23,8 @@
 namespace gnomon {
 
 // How a number is shown.
-enum class Shown {
-  Number,
+enum class NumberKind {
+  Plain,
   Count,
   Share,  // of the scored pixels, as per cent
   Error,  // over the mean, from 0.1 % to many times
@@ -53,7 +53,7 @@ struct FieldNotes {
   const char* unit = "";
   const char* says = "";  // for docs/results.md
   Absent absent = Absent::Refused;
-  Shown shown = Shown::Number;
+  NumberKind kind = NumberKind::Plain;
   const char* title = "";  // of the page's column; empty: none
   TableColumn table;       // of the terminal's
   Hides hides = Hides::Never;

@@ -12,10 +12,10 @@ struct ProgramFacts {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("version", &ProgramFacts::version, {.says = "of Gnomon"}),
-        field("device", &ProgramFacts::device, {.says = "that Vulkan names"}),
-        field("driver", &ProgramFacts::driver, {.says = "and its version"}),
-        field("command", &ProgramFacts::command, {.says = "that makes the file again", .absent = Absent::Earlier}));
+        field("version", &ProgramFacts::version, {.says = "Gnomon's version"}),
+        field("device", &ProgramFacts::device, {.says = "Vulkan device"}),
+        field("driver", &ProgramFacts::driver, {.says = "Vulkan driver and version"}),
+        field("command", &ProgramFacts::command, {.says = "the command line", .absent = Absent::Earlier}));
   }
 };
 
@@ -26,10 +26,10 @@ struct SceneFacts {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("name", &SceneFacts::name, {.says = "as the scene calls itself"}),
+        field("name", &SceneFacts::name, {.says = "name of the scene"}),
         field("source", &SceneFacts::source, {.says = "file or generator", .absent = Absent::Earlier}),
-        field("triangles", &SceneFacts::triangles),
-        field("sceneScale", &SceneFacts::sceneScale, {.unit = "metres", .says = "diagonal of its bounds"}));
+        field("triangles", &SceneFacts::triangles, {.says = "number of triangles"}),
+        field("sceneScale", &SceneFacts::sceneScale, {.unit = "metres", .says = "diagonal of the bounding box"}));
   }
 };
 
@@ -41,11 +41,11 @@ struct CameraFacts {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("name", &CameraFacts::name), field("eye", &CameraFacts::eye, {.unit = "metres"}),
+        field("name", &CameraFacts::name, {.says = "name of the camera"}),
+        field("eye", &CameraFacts::eye, {.unit = "metres", .says = "position"}),
         field("forward", &CameraFacts::forward, {.says = "unit vector", .absent = Absent::Earlier}),
         field("up", &CameraFacts::up, {.says = "unit vector", .absent = Absent::Earlier}),
-        field("fov_degrees", &CameraFacts::fovDegrees,
-              {.unit = "degrees", .says = "from the picture's foot to its top"}),
+        field("fov_degrees", &CameraFacts::fovDegrees, {.unit = "degrees", .says = "vertical field of view"}),
         field("width", &CameraFacts::width, {.unit = "pixels", .says = "of the pictures", .most = kMaxPictureSide}),
         field("height", &CameraFacts::height, {.unit = "pixels", .says = "of the pictures", .most = kMaxPictureSide}));
   }
@@ -59,10 +59,12 @@ struct ResultsHead {
   double gbufferMs = 0.0;
 
   static constexpr auto fields() {
-    return std::tuple(
-        field("schema", &ResultsHead::schema, {.says = "this version"}), field("gnomon", &ResultsHead::program),
-        field("scene", &ResultsHead::scene), field("camera", &ResultsHead::camera),
-        field("gbuffer_ms", &ResultsHead::gbufferMs, {.unit = "ms", .says = "of the G-buffer; median, wall clock"}));
+    return std::tuple(field("schema", &ResultsHead::schema, {.says = "version of this format"}),
+                      field("gnomon", &ResultsHead::program, {.says = "below"}),
+                      field("scene", &ResultsHead::scene, {.says = "below"}),
+                      field("camera", &ResultsHead::camera, {.says = "below"}),
+                      field("gbuffer_ms", &ResultsHead::gbufferMs,
+                            {.unit = "ms", .says = "drawing the G-buffer; median of `--repeats`, wall clock"}));
   }
 };
 

@@ -14,15 +14,16 @@ struct LightFacts {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("name", &LightFacts::name), field("type", &LightFacts::type, {.says = "point, spot, directional"}),
+        field("name", &LightFacts::name, {.says = "name of the light"}),
+        field("type", &LightFacts::type, {.says = "point, spot, directional"}),
         field("position", &LightFacts::position,
-              {.unit = "metres", .says = "not of a directional light", .absent = Absent::LeftOut}),
+              {.unit = "metres", .says = "absent for a directional light", .absent = Absent::LeftOut}),
         field("intensity", &LightFacts::intensity,
-              {.unit = "candela", .says = "rgb; of a medium alone", .absent = Absent::LeftOut}),
+              {.unit = "candela", .says = "rgb; only in `lights` of gnomon fog", .absent = Absent::LeftOut}),
         field("direction", &LightFacts::direction,
-              {.says = "unit vector, the way it shines; not of a point light", .absent = Absent::LeftOut}),
+              {.says = "unit vector of its axis or rays; absent for a point light", .absent = Absent::LeftOut}),
         field("cone_degrees", &LightFacts::coneDegrees,
-              {.unit = "degrees", .says = "the whole cone of a spot light", .absent = Absent::LeftOut}));
+              {.unit = "degrees", .says = "full angle of a spot light's cone", .absent = Absent::LeftOut}));
   }
 };
 

@@ -14,11 +14,11 @@ struct DensityFacts {
   size_t voxels = 0;
 
   static constexpr auto fields() {
-    return std::tuple(field("grid", &DensityFacts::grid, {.says = "its name"}),
-                      field("lower", &DensityFacts::lower, {.unit = "metres", .says = "corner of its bounds"}),
-                      field("upper", &DensityFacts::upper, {.unit = "metres", .says = "corner of its bounds"}),
-                      field("voxel_metres", &DensityFacts::voxelMetres, {.unit = "metres", .says = "a voxel's side"}),
-                      field("voxels", &DensityFacts::voxels, {.says = "those that are active"}));
+    return std::tuple(field("grid", &DensityFacts::grid, {.says = "name of the grid"}),
+                      field("lower", &DensityFacts::lower, {.unit = "metres", .says = "corner of its bounding box"}),
+                      field("upper", &DensityFacts::upper, {.unit = "metres", .says = "corner of its bounding box"}),
+                      field("voxel_metres", &DensityFacts::voxelMetres, {.unit = "metres", .says = "size of a voxel"}),
+                      field("voxels", &DensityFacts::voxels, {.says = "number of active voxels"}));
   }
 };
 
@@ -28,12 +28,11 @@ struct MediumFacts {
   std::optional<DensityFacts> density;
 
   static constexpr auto fields() {
-    return std::tuple(
-        field("sigma_s", &MediumFacts::sigmaS, {.unit = "1/m", .says = "scattering, rgb, at density 1"}),
-        field("sigma_a", &MediumFacts::sigmaA, {.unit = "1/m", .says = "absorption, rgb, at density 1"}),
-        field("g", &MediumFacts::g, {.says = "of the phase function"}),
-        field("reach", &MediumFacts::reach, {.unit = "metres", .says = "where view rays end at the latest"}),
-        field("density", &MediumFacts::density, {.says = "null where the medium is homogeneous"}));
+    return std::tuple(field("sigma_s", &MediumFacts::sigmaS, {.unit = "1/m", .says = "scattering, rgb, at density 1"}),
+                      field("sigma_a", &MediumFacts::sigmaA, {.unit = "1/m", .says = "absorption, rgb, at density 1"}),
+                      field("g", &MediumFacts::g, {.says = "anisotropy of the phase function"}),
+                      field("reach", &MediumFacts::reach, {.unit = "metres", .says = "longest view ray"}),
+                      field("density", &MediumFacts::density, {.says = "null if the medium is homogeneous; below"}));
   }
 };
 
@@ -48,17 +47,18 @@ struct ReferenceFacts {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("mean", &ReferenceFacts::mean, {.unit = "cd/m^2"}),
-        field("bound", &ReferenceFacts::bound,
-              {.says = "that the last doubling of a pixel's samples had to stay below, as a share of the mean"}),
-        field("worst_change", &ReferenceFacts::worstChange, {.says = "by the last doubling, as a share of the mean"}),
-        field("pixels_at_limit", &ReferenceFacts::atLimit, {.unit = "pixels", .says = "that ran out of doublings"}),
-        field("doublings", &ReferenceFacts::doublings, {.says = "the most of any pixel"}),
-        field("rays", &ReferenceFacts::rays, {.says = "of all pixels"}),
+        field("mean", &ReferenceFacts::mean, {.unit = "cd/m^2", .says = "over pixels and channels"}),
+        field("bound", &ReferenceFacts::bound, {.says = "the convergence tolerance, as a fraction of the mean"}),
+        field("worst_change", &ReferenceFacts::worstChange,
+              {.says = "largest change of a pixel by its last doubling of samples, as a fraction of the mean"}),
+        field("pixels_at_limit", &ReferenceFacts::atLimit,
+              {.unit = "pixels", .says = "that reached the limit of doublings"}),
+        field("doublings", &ReferenceFacts::doublings, {.says = "most doublings of any pixel"}),
+        field("rays", &ReferenceFacts::rays, {.says = "rays traced"}),
         field("trace_ms", &ReferenceFacts::traceMs, {.unit = "ms", .says = "wall clock"}),
         field("from_cache", &ReferenceFacts::fromCache,
-              {.says = "whether it is kept from an earlier run", .absent = Absent::Earlier}),
-        field("pictures", &ReferenceFacts::pictures, {.says = "paths, below"}));
+              {.says = "whether it was cached by an earlier run", .absent = Absent::Earlier}),
+        field("pictures", &ReferenceFacts::pictures, {.says = "paths, as of a row"}));
   }
 };
 
@@ -69,10 +69,11 @@ struct FramesFacts {
   std::string note;
 
   static constexpr auto fields() {
-    return std::tuple(field("count", &FramesFacts::count, {.says = "of `--frames`"}),
-                      field("moves", &FramesFacts::moves, {.says = "light or camera"}),
-                      field("offset", &FramesFacts::offset, {.unit = "metres", .says = "from the first to the last"}),
-                      field("note", &FramesFacts::note, {.says = "where the video is, or why there is none"}));
+    return std::tuple(
+        field("count", &FramesFacts::count, {.says = "number of frames"}),
+        field("moves", &FramesFacts::moves, {.says = "light or camera"}),
+        field("offset", &FramesFacts::offset, {.unit = "metres", .says = "from the first frame to the last"}),
+        field("note", &FramesFacts::note, {.says = "where the video is, or why there is none"}));
   }
 };
 
@@ -92,18 +93,21 @@ struct MediaResults : ResultsHead {
     return std::tuple_cat(
         ResultsHead::fields(),
         std::tuple(
-            field("lights", &MediaResults::lights), field("medium", &MediaResults::medium),
-            field("exposure", &MediaResults::exposure, {.says = "the factor of the PNGs", .absent = Absent::Earlier}),
-            field("reference", &MediaResults::reference, {.says = "null without `--truth`"}),
+            field("lights", &MediaResults::lights, {.says = "as `light` above"}),
+            field("medium", &MediaResults::medium, {.says = "below"}),
+            field("exposure", &MediaResults::exposure,
+                  {.says = "factor from radiance to PNG", .absent = Absent::Earlier}),
+            field("reference", &MediaResults::reference, {.says = "null without `--truth`; below"}),
             field("worst_place", &MediaResults::worst,
-                  {.says = "null, or the square where the first row errs most for the brightness there"}),
-            field("frames", &MediaResults::frames, {.says = "null, or the motion of `--frames`"}),
-            field("rows", &MediaResults::noRows, {.says = "of `gnomon compare`: empty"}),
-            field("maps", &MediaResults::noRows, {.says = "of `gnomon compare`: empty"}),
-            field("truths", &MediaResults::noRows, {.says = "of `gnomon compare`: empty"}),
-            field("media", &MediaResults::rows, {.says = "one an integrator and number of steps"}),
+                  {.says =
+                       "null, or the square where the first row's error is largest relative to the brightness there"}),
+            field("frames", &MediaResults::frames, {.says = "null, or the motion of `--frames`; below"}),
+            field("rows", &MediaResults::noRows, {.says = "empty (of `gnomon compare`)"}),
+            field("maps", &MediaResults::noRows, {.says = "empty (of `gnomon compare`)"}),
+            field("truths", &MediaResults::noRows, {.says = "empty (of `gnomon compare`)"}),
+            field("media", &MediaResults::rows, {.says = "one per integrator and number of steps; below"}),
             field("equal_terms", &MediaResults::equalTerms,
-                  {.says = "how each other row stands against the baseline"})));
+                  {.says = "how each other row compares with the baseline; below"})));
   }
 };
 

@@ -25,29 +25,29 @@ struct MediaRow {
   static constexpr auto fields() {
     return std::tuple(
         field("integrator", &MediaRow::integrator, {.says = "`runs`, `bits`, `popcount`, `march`"}),
-        field("steps", &MediaRow::steps, {.says = "samples a view ray, or null"}),
+        field("steps", &MediaRow::steps, {.says = "samples per view ray, or null"}),
         field("baseline", &MediaRow::isBaseline,
-              {.says = "whether the others are held against it", .absent = Absent::Earlier}),
+              {.says = "whether the other rows are compared with this one", .absent = Absent::Earlier}),
         field("map", &MediaRow::map, {.says = "`vsv`, `cube`, `paraboloid`"}),
         field("params", &MediaRow::params,
               {.says = "`map_size`, `lights`, `vsv_source`, `vsv_fit`, `cube_size`, `cull`"}),
         field("rel_rmse", &MediaRow::relRmse,
               {.says = "of the in-scattered light alone: RMSE over pixels and channels / the reference's mean",
-               .shown = Shown::Error,
+               .kind = NumberKind::Error,
                .title = "Error, all",
                .table = {"rel rmse", 9, 5},
                .hides = Hides::OnPage,
                .ranks = true,
                .least = 0}),
-        field(
-            "rel_rmse_99", &MediaRow::relRmse99,
-            {.says = "the same over the 99 % of the pixels that err least: beside a visible light, where the integrand "
-                     "grows as 1/r^2, few pixels decide the other",
-             .shown = Shown::Error,
-             .title = "Error, 99 %",
-             .table = {"rmse 99%", 9, 5},
-             .hides = Hides::OnPage,
-             .least = 0}),
+        field("rel_rmse_99", &MediaRow::relRmse99,
+              {.says =
+                   "the same without the 1 % of the pixels with the largest errors: beside a visible light, where the "
+                   "integrand grows as 1/r^2, few pixels decide the other",
+               .kind = NumberKind::Error,
+               .title = "Error, 99 %",
+               .table = {"rmse 99%", 9, 5},
+               .hides = Hides::OnPage,
+               .least = 0}),
         field("flip", &MediaRow::flip,
               {.says = "mean FLIP of the exposed pictures, surfaces and all",
                .title = "FLIP",
@@ -55,42 +55,43 @@ struct MediaRow {
                .hides = Hides::OnPage,
                .least = 0}),
         field("flicker", &MediaRow::flicker,
-              {.says = "as docs/media.md has it",
-               .shown = Shown::Error,
+              {.says = "of `--frames`, as docs/media.md defines it, or null",
+               .kind = NumberKind::Error,
                .title = "Flicker",
                .table = {"flicker", 9, 5},
                .hides = Hides::Everywhere,
                .least = 0}),
         field("map_ms", &MediaRow::mapMs,
               {.unit = "ms",
-               .says = "of the volume or map; medians of `--repeats`, wall clock, all lights together",
-               .shown = Shown::Milliseconds,
+               .says = "drawing the volume or map; median of `--repeats`, wall clock, all lights together",
+               .kind = NumberKind::Milliseconds,
                .title = "Map ms",
                .table = {"map ms", 9, 2},
                .least = 0}),
         field("table_ms", &MediaRow::tableMs,
               {.unit = "ms",
-               .says = "of the running integral; likewise",
-               .shown = Shown::Milliseconds,
+               .says = "tabulating the running integral; likewise",
+               .kind = NumberKind::Milliseconds,
                .title = "Table ms",
                .table = {"table ms", 9, 2},
                .least = 0}),
-        field("build_ms", &MediaRow::buildMs, {.unit = "ms", .says = "their sum", .shown = Shown::Milliseconds}),
+        field("build_ms", &MediaRow::buildMs,
+              {.unit = "ms", .says = "`map_ms` + `table_ms`", .kind = NumberKind::Milliseconds}),
         field("integrate_ms", &MediaRow::integrateMs,
               {.unit = "ms",
-               .says = "of integrating; likewise",
-               .shown = Shown::Milliseconds,
+               .says = "integrating; likewise",
+               .kind = NumberKind::Milliseconds,
                .title = "Integral ms",
                .table = {"integrate ms", 13, 2},
                .least = 0}),
         field("all_ms", &MediaRow::totalMs,
               {.unit = "ms",
                .says = "of all of it",
-               .shown = Shown::Milliseconds,
+               .kind = NumberKind::Milliseconds,
                .title = "All ms",
                .table = {"all ms", 9, 2},
                .inFile = false}),
-        field("pictures", &MediaRow::pictures, {.says = "paths, below"}));
+        field("pictures", &MediaRow::pictures, {.says = "paths relative to results.json; below"}));
   }
 };
 
@@ -106,7 +107,8 @@ struct Factor {
   Bound bound = Bound::Exact;
 
   static constexpr auto fields() {
-    return std::tuple(field("factor", &Factor::value), field("bound", &Factor::bound, {.says = "below"}));
+    return std::tuple(field("factor", &Factor::value, {.says = "above 1, the row is better"}),
+                      field("bound", &Factor::bound, {.says = "below"}));
   }
 };
 
@@ -129,8 +131,8 @@ struct EqualTerms {
     return std::tuple(
         field("integrator", &EqualTerms::integrator, {.says = "of the row"}),
         field("steps", &EqualTerms::steps, {.says = "of the row"}),
-        field("against", &EqualTerms::against, {.says = "the baseline's integrator"}),
-        field("with_build", &EqualTerms::withBuild, {.says = "whether maps, volumes and tables count"}),
+        field("against", &EqualTerms::against, {.says = "integrator of the baseline"}),
+        field("with_build", &EqualTerms::withBuild, {.says = "whether maps, volumes and tables are counted"}),
         field("measure", &EqualTerms::measure, {.says = "`rel_rmse` or `rel_rmse_99`"}),
         field("faster_at_equal_error", &EqualTerms::faster, {.says = "the baseline's time over the row's"}),
         field("less_error_at_equal_time", &EqualTerms::better, {.says = "the baseline's error over the row's"}));

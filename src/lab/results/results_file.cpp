@@ -216,6 +216,7 @@ MapSummary mapOfSchema1(const TruthSummary& truth, const fs::path& folder, const
 
 // What files of earlier schemas lack.
 void complete(const JsonField& root, const fs::path& folder, Comparison& comparison) {
+  if (comparison.schema >= 4) return;
   for (Row& row : comparison.rows) {
     if (row.mapDimensions.empty()) row.mapDimensions = fmt::format("{}", row.mapSide);
     if (row.tuning && row.units.empty()) row.units = {{row.tuning->knob, row.tuning->unit}};

@@ -14,8 +14,8 @@ struct Transfer {
   float bestValue = 0.0f;
 
   static constexpr auto fields() {
-    return std::tuple(field("bias_error", &Transfer::biasError, {.says = "with the tuned value"}),
-                      field("best_bias_error", &Transfer::bestBiasError, {.says = "with the value tuned there"}),
+    return std::tuple(field("bias_error", &Transfer::biasError, {.says = "there, with the value tuned here"}),
+                      field("best_bias_error", &Transfer::bestBiasError, {.says = "there, with the value tuned there"}),
                       field("best_value", &Transfer::bestValue, {.says = "the value tuned there"}));
   }
 };
@@ -34,7 +34,7 @@ struct MapSizeTransfer : Transfer {
 
   static constexpr auto fields() {
     return std::tuple_cat(
-        std::tuple(field("map_size", &MapSizeTransfer::mapSize, {.unit = "texels", .says = "a side of a layer"})),
+        std::tuple(field("map_size", &MapSizeTransfer::mapSize, {.unit = "texels", .says = "width of a slice"})),
         Transfer::fields());
   }
 };
@@ -49,16 +49,17 @@ struct Tuning {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("knob", &Tuning::knob, {.says = "the method's first"}),
-        field("value", &Tuning::value, {.says = "that errs least here"}),
-        field("unit", &Tuning::unit, {.says = "of the value", .absent = Absent::Earlier}),
-        field("evaluations", &Tuning::evaluations, {.says = "how many values were tried"}),
-        field("other_camera", &Tuning::otherCamera, {.says = "the value seen by a camera carried round; or null"}),
-        field("other_map_size", &Tuning::otherMapSize, {.says = "the value on a map of half the size; or null"}));
+        field("knob", &Tuning::knob, {.says = "the parameter that was tuned: the bias's first"}),
+        field("value", &Tuning::value, {.says = "with the least acne and leak here"}),
+        field("unit", &Tuning::unit, {.says = "of `value`", .absent = Absent::Earlier}),
+        field("evaluations", &Tuning::evaluations, {.says = "number of values tried"}),
+        field("other_camera", &Tuning::otherCamera, {.says = "how well the value works from a second camera; or null"}),
+        field("other_map_size", &Tuning::otherMapSize,
+              {.says = "how well it works on a map of half the size; or null"}));
   }
 };
 
-// A knob of a bias, or what else sets the map and the method up. Knobs are numbers with a point.
+// A parameter of a bias (a number with a point), or what else sets the map and the method up.
 struct Param {
   std::string name;
   std::variant<std::string, int64_t, double> value;
@@ -106,7 +107,7 @@ struct Row {
     return field(name, count,
                  {.unit = "pixels",
                   .says = "with this label",
-                  .shown = Shown::Count,
+                  .kind = NumberKind::Count,
                   .title = title,
                   .table = table,
                   .hides = hides,
@@ -116,49 +117,52 @@ struct Row {
   static constexpr auto fields() {
     return std::tuple(
         field("map", &Row::map, {.says = "parameterization"}),
-        field("light", &Row::light, {.says = "its name; `all` in a sum", .absent = Absent::Earlier}),
+        field("light", &Row::light, {.says = "name of the light; `all` in a sum", .absent = Absent::Earlier}),
         field("sum", &Row::isSum,
-              {.says = "whether counts and times are those of all lights together (`--light all`)",
+              {.says = "true: of this method over all lights (`--light all`); counts and times are added",
                .absent = Absent::Earlier}),
-        field("map_size", &Row::mapSide, {.unit = "texels", .says = "a side of a layer"}),
-        field("layers", &Row::layers, {.says = "faces, halves or cascades"}),
-        field("map_texels", &Row::mapTexels, {.says = "of all layers, one depth each"}),
+        field("map_size", &Row::mapSide, {.unit = "texels", .says = "width of a slice"}),
+        field("layers", &Row::layers, {.says = "number of slices: faces, halves, cascades"}),
+        field("map_texels", &Row::mapTexels, {.says = "in all slices"}),
         field("map_dimensions", &Row::mapDimensions,
               {.says = "`map_size`, or a volume's voxels: alpha x theta x phi", .absent = Absent::Earlier}),
-        field("bias", &Row::bias), field("params", &Row::params, {.says = "below", .absent = Absent::Earlier}),
-        field("units", &Row::units, {.says = "of each knob among `params`", .absent = Absent::Earlier}),
+        field("bias", &Row::bias, {.says = "its name"}),
+        field("params", &Row::params, {.says = "map and bias parameters; below", .absent = Absent::Earlier}),
+        field("units", &Row::units,
+              {.says = "units of the bias parameters among `params`, by name", .absent = Absent::Earlier}),
         field("filter", &Row::filter, {.says = "`none`, `bilinear`, `jitter4x4`", .absent = Absent::Earlier}),
-        field("tuned", &Row::isTuned, {.says = "whether a knob was searched (`--tune`)"}),
+        field("tuned", &Row::isTuned, {.says = "whether its parameters were searched (`--tune`)"}),
         field("scored", &Row::scored,
-              {.unit = "pixels", .says = "that face the light and lie within its cone", .shown = Shown::Count}),
+              {.unit = "pixels", .says = "that face the light within its cone", .kind = NumberKind::Count}),
         labelCount("agree", &Row::agree, "", {"agree", 9}), labelCount("acne", &Row::acne, "Acne", {"acne", 8}),
         labelCount("leak", &Row::leak, "Leak", {"leak", 8}),
         labelCount("edge_shadow", &Row::edgeShadow, "Edge, shadow", {"edge_sh", 8}),
         labelCount("edge_light", &Row::edgeLight, "Edge, light", {"edge_li", 8}),
         field("edge", &Row::edge,
-              {.unit = "pixels", .says = "both", .shown = Shown::Count, .metric = true, .inFile = false}),
+              {.unit = "pixels", .says = "both", .kind = NumberKind::Count, .metric = true, .inFile = false}),
         labelCount("uncovered", &Row::uncovered, "Uncovered", {"uncovered", 9}, Hides::OnPage),
-        field(
-            "grazing", &Row::grazing,
-            {.unit = "pixels",
-             .says = "whose texel ray does not meet their plane between near and far, where their own depth stands in",
-             .absent = Absent::Earlier,
-             .shown = Shown::Count}),
+        field("grazing", &Row::grazing,
+              {.unit = "pixels",
+               .says = "whose texel ray does not meet the receiver's plane between near and far; the receiver's own "
+                       "depth is used "
+                       "instead",
+               .absent = Absent::Earlier,
+               .kind = NumberKind::Count}),
         field("edge_on", &Row::edgeOn,
               {.unit = "pixels",
-               .says = "that the shader's floats take for facing away and the truth does not: edge-on within rounding, "
-                       "counted as agreeing",
+               .says = "that face away in the shader's floats but not in double precision: edge-on within rounding, "
+                       "counted as "
+                       "agreeing",
                .absent = Absent::Earlier,
-               .shown = Shown::Count}),
+               .kind = NumberKind::Count}),
         field("bias_error", &Row::biasError,
               {.says = "(acne + leak) / scored",
-               .shown = Shown::Share,
+               .kind = NumberKind::Share,
                .table = {"bias error", 10, 4},
                .ranks = true,
                .metric = true}),
         field("rmse", &Row::rmse,
-              {.says = "of the visibility against the truth through the same filter; a pixel that the map does not "
-                       "cover counts as lit",
+              {.says = "of the visibility against the truth through the same filter; uncovered pixels count as lit",
                .title = "RMSE",
                .table = {"rmse", 7, 4},
                .metric = true}),
@@ -169,23 +173,27 @@ struct Row {
                .hides = Hides::OnPage}),
         field("build_ms", &Row::buildMs,
               {.unit = "ms",
-               .says = "of the map; median of `--repeats`, wall clock",
-               .shown = Shown::Milliseconds,
+               .says = "drawing the map; median of `--repeats`, wall clock",
+               .kind = NumberKind::Milliseconds,
                .title = "Build ms",
                .table = {"build ms", 9, 2}}),
         field("shade_ms", &Row::shadeMs,
               {.unit = "ms",
-               .says = "of the visibility pass; likewise",
-               .shown = Shown::Milliseconds,
+               .says = "visibility pass; likewise",
+               .kind = NumberKind::Milliseconds,
                .title = "Shade ms",
                .table = {"shade ms", 9, 2}}),
         field("frame_ms", &Row::frameMs,
-              {.unit = "ms", .says = "`gbuffer_ms` and both", .shown = Shown::Milliseconds, .title = "Frame ms"}),
-        field("tuning", &Row::tuning, {.says = "null, or as below"}),
-        field("worst_acne", &Row::worstAcne, {.says = "null, or the square of the picture with most of it"}),
-        field("worst_leak", &Row::worstLeak, {.says = "likewise"}),
-        field("command", &Row::command, {.says = "that makes this row again", .absent = Absent::Earlier}),
-        field("pictures", &Row::pictures, {.says = "paths beside results.json, below", .absent = Absent::Earlier}));
+              {.unit = "ms",
+               .says = "`gbuffer_ms` + `build_ms` + `shade_ms`",
+               .kind = NumberKind::Milliseconds,
+               .title = "Frame ms"}),
+        field("tuning", &Row::tuning, {.says = "of a tuned row, else null; below"}),
+        field("worst_acne", &Row::worstAcne, {.says = "the square of the picture with the most acne, or null; below"}),
+        field("worst_leak", &Row::worstLeak, {.says = "likewise of leak"}),
+        field("command", &Row::command, {.says = "the command line that makes this row again", .absent = Absent::Earlier}),
+        field("pictures", &Row::pictures,
+              {.says = "paths relative to results.json; below", .absent = Absent::Earlier}));
   }
 };
 

@@ -32,11 +32,12 @@ struct WorstPlace {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("x", &WorstPlace::x, {.unit = "pixels", .says = "left border", .most = kMaxPictureSide}),
-        field("y", &WorstPlace::y, {.unit = "pixels", .says = "upper border", .most = kMaxPictureSide}),
-        field("size", &WorstPlace::size, {.unit = "pixels", .says = "side", .least = 1, .most = kMaxPictureSide}),
+        field("x", &WorstPlace::x, {.unit = "pixels", .says = "left edge", .most = kMaxPictureSide}),
+        field("y", &WorstPlace::y, {.unit = "pixels", .says = "top edge", .most = kMaxPictureSide}),
+        field("size", &WorstPlace::size,
+              {.unit = "pixels", .says = "width and height", .least = 1, .most = kMaxPictureSide}),
         field("pixels", &WorstPlace::pixels,
-              {.says = "how many it holds; not of a medium", .absent = Absent::LeftOut}));
+              {.says = "number of pixels with the label in it; only in rows", .absent = Absent::LeftOut}));
   }
 };
 inline constexpr int kWorstSide = 64;  // pixels
