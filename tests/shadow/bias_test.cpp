@@ -1,8 +1,6 @@
-// shared/bias.glsl: what each method promises, and the same verdicts on both processors.
+// shared/bias.glsl: what each method promises. bias_on_the_gpu_test.cpp has the same verdicts on both processors.
 #include "base/error.h"
-#include "map_fixture.h"
-#include "map_functions.glsl"
-#include "tests/run_kernel.h"
+#include "plane_case.h"
 
 #include <cmath>
 #include <numbers>
@@ -16,30 +14,9 @@ using test::facingNormal;
 using test::fittedDirectional;
 using test::fittedSpot;
 using test::MapSample;
+using test::PlaneCase;
+using test::planeCase;
 using test::samplesOf;
-
-// A receiver on a plane at some angle, and what the map would hold of that very plane in the receiver's
-// texel.
-struct PlaneCase {
-  Receiver receiver;
-  Tap tap;
-  bool meets = false;  // the texel's ray meets the plane between near and far
-};
-
-PlaneCase planeCase(const ShadowMap& map, const MapSample& sample, float tanAngle, float azimuth) {
-  PlaneCase result;
-  const Ray toPoint = mapTexelRay(map, 0, sample.uv);
-  result.receiver = {sample.posL, facingNormal(toPoint.dir, tanAngle, azimuth)};
-  Tap& tap = result.tap;
-  tap.layer = 0;
-  tap.texel = mapTexel(map, mapProject(map, sample.posL).uv);
-  tap.ray = mapTexelRay(map, 0, mapTexelCenter(map, tap.texel));
-  const PlaneDepth plane = receiverPlaneDepth(map, 0, result.receiver, tap.ray);
-  result.meets = !plane.grazing;
-  tap.z1 = plane.depth;
-  tap.z2 = 1.0f;
-  return result;
-}
 
 std::vector<PlaneCase> planeCases(const ShadowMap& map, const FittedMap& fitted, size_t count) {
   std::mt19937 random(11);
@@ -269,41 +246,6 @@ TEST(BiasList, UnknownMethodIsTold) {
   tap.z1 = 0.5f;
   biasLit(999, fitted.map, {}, {}, tap, known);
   EXPECT_FALSE(known);
-}
-
-class BiasOnTheGpu : public gpu::GpuTest {};
-
-TEST_F(BiasOnTheGpu, VerdictsEqualTheCpuForEveryMethod) {
-  const FittedMap fitted = fittedSpot();
-  std::mt19937 random(15);
-  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
-  std::vector<BiasQuery> queries;
-  for (const MapSample& sample : samplesOf(fitted, gpu::kKernelInputCount, 16)) {
-    PlaneCase c = planeCase(fitted.map, sample, std::tan(unit(random) * 1.57f), unit(random) * 6.0f);
-    BiasQuery query{
-        .method = static_cast<int>(queries.size() % (biasMethods().size() + 2)),  // and the user's, and no method
-        .params = defaultBiasParams(fitted.map.sceneScale),
-        .receiver = c.receiver,
-        .z1 = c.tap.z1,
-        .z2 = c.tap.z1 + unit(random) * 0.1f};
-    query.params.epsilonAt = static_cast<int>(queries.size() % 3);
-    // Near the decision of each method, on either side.
-    query.z1 += (unit(random) - 0.5f) * 1e-3f;
-    queries.push_back(query);
-  }
-  const gpu::Buffer map = gpu::createBufferWith(
-      device(), "map", std::vector<MapUniforms>{{.lightFrame = fitted.frame, .shadowMap = fitted.map}},
-      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-  const auto answers = gpu::runKernel<BiasQuery, uint>(device(), GNOMON_TEST_SHADER("evaluate_bias.comp.glsl"), queries,
-                                                       {{kBindMap, map}});
-  size_t different = 0;
-  std::set<uint> seen;
-  for (size_t i = 0; i < queries.size(); ++i) {
-    different += answers[i] != answerBias(fitted.map, queries[i]) ? 1 : 0;
-    seen.insert(answers[i]);
-  }
-  EXPECT_EQ(seen.size(), 3u);  // shadow, light and unknown all occur
-  EXPECT_LE(different, isLavapipe() ? size_t{0} : queries.size() / 1000);
 }
 
 }  // namespace

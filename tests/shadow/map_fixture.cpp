@@ -52,14 +52,16 @@ std::vector<MapSample> samplesOf(const FittedMap& fitted, size_t count, uint32_t
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
   std::vector<MapSample> samples(count);
-  for (MapSample& sample : samples) {
+  for (size_t i = 0; i < count; ++i) {
+    MapSample& sample = samples[i];
+    sample.layer = static_cast<int>(i % static_cast<size_t>(fitted.map.layerCount));
     sample.uv = {unit(random), unit(random)};
-    const glsl::Ray ray = glsl::mapTexelRay(fitted.map, 0, sample.uv);
+    const glsl::Ray ray = glsl::mapTexelRay(fitted.map, sample.layer, sample.uv);
     // Even in distance, so that both ends of a hyperbolic depth are met.
-    const float length = glsl::mapDistance(fitted.map, 0, ray, 1.0f);
+    const float length = glsl::mapDistance(fitted.map, sample.layer, ray, 1.0f);
     const float t = (0.001f + 0.998f * unit(random)) * length;
     sample.posL = ray.origin + ray.dir * t;
-    sample.depth = glsl::mapDepth(fitted.map, 0, sample.posL);
+    sample.depth = glsl::mapDepth(fitted.map, sample.layer, sample.posL);
   }
   return samples;
 }

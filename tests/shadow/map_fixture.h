@@ -17,8 +17,9 @@ namespace gnomon::test {
 FittedMap fittedSpot();
 FittedMap fittedDirectional();
 
-// A point of the map's volume: the ray through a random uv, at a random depth.
+// A point of the map's volume: the ray through a random uv of a layer, at a random depth. Layers take turns.
 struct MapSample {
+  int layer;
   glm::vec2 uv;
   float depth;
   glm::vec3 posL;
