@@ -71,6 +71,7 @@ TEST_P(Bias, SlopeCoversATiltedPlane) {
 }
 
 TEST_P(Bias, ConstantIsADistanceInMetres) {
+  size_t tried = 0;
   for (const MapSample& sample : samplesOf(fitted_, 4096, 13)) {
     PlaneCase c = planeCase(fitted_.map, sample, 0.0f, 0.0f);
     const float distance = glm::dot(c.receiver.posL - c.tap.ray.origin, c.tap.ray.dir);
@@ -81,8 +82,10 @@ TEST_P(Bias, ConstantIsADistanceInMetres) {
       EXPECT_FALSE(lit(kBiasConstant, fitted_.map, params_, c.receiver, c.tap));
       params_.constantOffset = 1.02f * gap;
       EXPECT_TRUE(lit(kBiasConstant, fitted_.map, params_, c.receiver, c.tap));
+      ++tried;
     }
   }
+  EXPECT_GT(tried, size_t{2 * 4096 * 3 / 4});
 }
 
 TEST_P(Bias, AnOccluderTenEpsilonsAwayCastsAShadowWithAdaptive) {
@@ -171,18 +174,38 @@ TEST_P(Bias, ReceiverPlaneNeverShadowsAPlaneByItself) {
   EXPECT_LE(static_cast<double>(acne) / static_cast<double>(cases.size()), 0.01);
 }
 
-TEST_P(Bias, ClampingLightsWhateverAdaptiveLights) {
-  for (const PlaneCase& c : planeCases(fitted_.map, fitted_, 1 << 12)) {
+// Depths around where adaptive turns: from one epsilon beyond the plane's to twice that nearer to the light.
+TEST_P(Bias, ClampingAndEhmLightWhateverAdaptiveLightsAndMore) {
+  std::mt19937 random(20);
+  std::uniform_real_distribution<float> epsilons(-1.0f, 2.0f);
+  size_t adaptive = 0, clampedOnly = 0, ehmOnly = 0;
+  const auto cases = planeCases(fitted_.map, fitted_, 1 << 14);
+  for (const PlaneCase& c : cases) {
     Tap tap = c.tap;
-    tap.z1 *= 0.99f;
+    const PlaneDepth plane = receiverPlaneDepth(fitted_.map, 0, c.receiver, tap.ray);
+    tap.z1 -= epsilons(random) * adaptiveEpsilon(fitted_.map, params_, c.receiver, tap, plane.posL);
+    const bool clamped = lit(kBiasAdaptiveClamped, fitted_.map, params_, c.receiver, tap);
+    const bool ehm = lit(kBiasAdaptiveEhm, fitted_.map, params_, c.receiver, tap);
     if (lit(kBiasAdaptive, fitted_.map, params_, c.receiver, tap)) {
-      EXPECT_TRUE(lit(kBiasAdaptiveClamped, fitted_.map, params_, c.receiver, tap));
-      EXPECT_TRUE(lit(kBiasAdaptiveEhm, fitted_.map, params_, c.receiver, tap));
+      ++adaptive;
+      EXPECT_TRUE(clamped);
+      EXPECT_TRUE(ehm);
+    } else {
+      clampedOnly += clamped ? 1 : 0;
+      ehmOnly += ehm ? 1 : 0;
     }
   }
+  const auto share = [&](size_t count) { return static_cast<double>(count) / static_cast<double>(cases.size()); };
+  EXPECT_NEAR(share(adaptive), 2.0 / 3.0, 0.02);  // up to one epsilon of -1 to 2
+  // Of the last third: every other plane's F' lies behind the receiver, which clamping does not take.
+  EXPECT_NEAR(share(clampedOnly), 1.0 / 6.0, 0.02);
+  // Ehm's epsilon is 1 + tan^2 of the angle a times as large, and a is even up to 1.55: of s from 1 to 2 epsilons those with
+  // a >= atan(sqrt(s - 1)), whose mean is pi / 2 - 1.
+  EXPECT_NEAR(share(ehmOnly), (1.0 - (std::numbers::pi / 2.0 - 1.0) / 1.55) / 3.0, 0.02);
 }
 
 TEST_P(Bias, CosineIsNothingWhereTheSurfaceFacesTheLight) {
+  size_t tried = 0;
   for (const MapSample& sample : samplesOf(fitted_, 512, 18)) {
     PlaneCase c = planeCase(fitted_.map, sample, 0.0f, 0.0f);
     c.receiver.normalL = -c.tap.ray.dir;
@@ -193,10 +216,13 @@ TEST_P(Bias, CosineIsNothingWhereTheSurfaceFacesTheLight) {
     EXPECT_FALSE(lit(kBiasCosine, fitted_.map, params_, c.receiver, c.tap));
     c.receiver.normalL = facingNormal(c.tap.ray.dir, 30.0f, 1.0f);
     EXPECT_TRUE(lit(kBiasCosine, fitted_.map, params_, c.receiver, c.tap));
+    ++tried;
   }
+  EXPECT_GT(tried, size_t{512 * 3 / 4});
 }
 
 TEST_P(Bias, NormalOffsetMovesTexelsAlongTheNormal) {
+  size_t tried = 0;
   for (const MapSample& sample : samplesOf(fitted_, 512, 19)) {
     if (std::abs(sample.uv.x - 0.5f) > 0.45f || std::abs(sample.uv.y - 0.5f) > 0.45f) continue;  // moved off the map
     const Ray ray = mapTexelRay(fitted_.map, 0, sample.uv);
@@ -211,7 +237,9 @@ TEST_P(Bias, NormalOffsetMovesTexelsAlongTheNormal) {
     const float along = glm::dot(sample.posL - ray.origin, ray.dir);
     const float texel = glm::length((next.origin + next.dir * along) - (ray.origin + ray.dir * along));
     EXPECT_NEAR(glm::length(by) / texel, std::sqrt(2.0f), 0.01f);
+    ++tried;
   }
+  EXPECT_GT(tried, size_t{512 * 3 / 4});  // of the samples 0.9 * 0.9
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Bias, ::testing::Bool(),
