@@ -56,14 +56,6 @@ Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap
   return layers;
 }
 
-RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place) {
-  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, layer, glm::vec2(place / static_cast<double>(fitted.map.side)));
-  const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
-                                  glm::dvec3(fitted.frame.backW));
-  return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
-          .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))};
-}
-
 TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const std::vector<float>& depths,
                             const TexelCheck& check) {
   TexelErrors errors;

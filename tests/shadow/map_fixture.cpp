@@ -66,6 +66,14 @@ std::vector<MapSample> samplesOf(const FittedMap& fitted, size_t count, uint32_t
   return samples;
 }
 
+RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place) {
+  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, layer, glm::vec2(place / static_cast<double>(fitted.map.side)));
+  const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
+                                  glm::dvec3(fitted.frame.backW));
+  return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
+          .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))};
+}
+
 glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth) {
   const glm::vec3 hint = std::abs(rayDir.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
   const glm::vec3 u = glm::normalize(glm::cross(hint, rayDir));

@@ -26,6 +26,9 @@ struct MapSample {
 };
 std::vector<MapSample> samplesOf(const FittedMap& fitted, size_t count, uint32_t seed);
 
+// The light ray through a place on a layer, in texels (the centre of texel (x, y) is (x + 0.5, y + 0.5)).
+RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place);
+
 // A unit normal that faces the light at posL, at any angle to the ray up to `mostTanAngle`.
 glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth);
 
