@@ -49,9 +49,6 @@ TEST(Figure7OfDou, NoConstantIsRightForTheBoxAndTheWallAtOnce) {
                                    wall.error("adaptive", &glsl::BiasParams::adaptiveK, 1e-4f));
   const double dual = std::max(box.error("dual", &glsl::BiasParams::dualOffset, 1.75f),
                                wall.error("dual", &glsl::BiasParams::dualOffset, 1.75f));
-  RecordProperty("best_constant", std::to_string(bestConstant));
-  RecordProperty("adaptive", std::to_string(adaptive));
-  RecordProperty("dual", std::to_string(dual));
   EXPECT_GT(bestConstant, 0.02);
   EXPECT_LT(adaptive, bestConstant / 4.0);
   EXPECT_LT(dual, bestConstant / 20.0);

@@ -222,7 +222,6 @@ TEST(ParaboloidBound, EnclosesEveryTexelWhoseRayMeetsTheTriangle) {
   EXPECT_GT(across, 250u);
   EXPECT_GT(cut, 250u);
   EXPECT_LT(enclosed, 5 * met / 2);  // and little more than it must
-  std::printf("texels met %zu, enclosed %zu; %zu of %zu triangles in pieces\n", met, enclosed, cut, triangles.size());
 }
 
 // Two triangles on both sides of an edge leave no direction between them, and directions within both are

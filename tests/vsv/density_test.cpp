@@ -188,8 +188,6 @@ TEST_F(DensityGridTest, GeneratedOnesAreTheSameEachTimeAndFillTheBounds) {
       most = std::max(most, value);
       otherSeed += std::abs(value - c.at(at));
     }
-    std::printf("%s: %llu voxels, mean %.3g, most %.3g\n", kind.name, static_cast<unsigned long long>(first.voxels),
-                sum / 20000, most);
     EXPECT_GT(sum, 200.0) << kind.name;
     EXPECT_GT(most, 0.5) << kind.name;
     EXPECT_LE(most, 2.0 + 1e-6) << kind.name;
@@ -265,7 +263,6 @@ TEST_F(DensityOnTheGpu, AConstantGridIsTheHomogeneousMedium) {
     const double samples = relativeRmse(dense.scattered(march), homogeneous.scattered(march));
     const double runs =
         relativeRmse(dense.scattered({Integrator::Runs, 1024}), homogeneous.scattered({Integrator::Runs}));
-    std::printf("%s: march against march %.3g, bits at 1024 samples against runs %.3g\n", scene, samples, runs);
     EXPECT_LT(samples, 1e-3);
     EXPECT_LT(runs, 0.05);
   }
@@ -310,7 +307,6 @@ TEST_F(DensityOnTheGpu, TheTableOfDepthsToTheLightIsGoodToAPercentOfTheMean) {
     std::vector<glm::vec3> expected;
     for (size_t i = 0; i + 1 < world.endsW.size(); ++i) expected.emplace_back(marched(world, world.endsW[i], 64));
     const double error = relativeRmse(measured, expected);
-    std::printf("light at (%g, %g, %g): %.3g\n", lightW.x, lightW.y, lightW.z, error);
     EXPECT_LT(error, 0.01);
     EXPECT_LT(relativeRmse(world.scattered({Integrator::March, 64}), expected), 0.01);
   }
