@@ -27,6 +27,7 @@ World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3
   world.scene = std::move(scene);
   world.tracer = std::make_unique<Tracer>(world.scene);
   world.buffers = createSceneBuffers(device, world.scene);
+  world.renderer = std::make_unique<MapRenderer>(device);
   const auto positional =
       std::ranges::find_if(world.scene.lights, [](const Light& light) { return light.type != LightType::Directional; });
   world.light = {.type = LightType::Point, .positionW = lightW ? *lightW : glm::dvec3(positional->positionW)};
@@ -47,9 +48,8 @@ FittedMap fitWhole(const World& world, const Parameterization& map, int side, co
 Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
                   MapContent content, SecondLayer method) {
   MapImage image(device, fitted, content);
-  const MapRenderer renderer(device);
   gpu::Commands commands(device, "shadow map");
-  renderer.record(commands, world.buffers, image, world.light, cull, method);
+  world.renderer->record(commands, world.buffers, image, world.light, cull, method);
   commands.submitAndWait();
   Layers layers{.z1 = gpu::downloadAs<float>(device, image.depth())};
   if (content == MapContent::TwoLayers) layers.z2 = gpu::downloadAs<float>(device, image.secondDepth());

@@ -23,6 +23,7 @@ struct World {
   std::unique_ptr<Tracer> tracer;
   SceneBuffers buffers;
   LightModel light;
+  std::unique_ptr<MapRenderer> renderer;
 };
 // With the scene's first light that has a position, or a point light at `lightW`.
 World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3> lightW = {});

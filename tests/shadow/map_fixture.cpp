@@ -101,6 +101,7 @@ Rendered render(const gpu::Device& device, const std::string& sceneName, const P
   for (size_t i = 0; i < r.receivers.states.size(); ++i)
     if (r.receivers.states[i] == PixelState::Scored) scored.push_back(r.receivers.samples[i].positionW);
   r.fitted = map.fit({.scene = r.scene, .light = r.light, .receiversW = scored, .side = mapSide, .camera = r.view});
+  r.renderer = std::make_unique<MapRenderer>(device);
   r.image = draw(device, r, content, cull);
   return r;
 }
@@ -108,9 +109,8 @@ Rendered render(const gpu::Device& device, const std::string& sceneName, const P
 std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, MapContent content, CullMode cull,
                                SecondLayer method) {
   auto image = std::make_unique<MapImage>(device, r.fitted, content);
-  const MapRenderer renderer(device);
   gpu::Commands commands(device, "shadow map");
-  renderer.record(commands, r.buffers, *image, r.light, cull, method);
+  r.renderer->record(commands, r.buffers, *image, r.light, cull, method);
   commands.submitAndWait();
   return image;
 }

@@ -43,6 +43,7 @@ struct Rendered {
   LightModel light;
   Receivers receivers;
   FittedMap fitted;
+  std::unique_ptr<MapRenderer> renderer;  // of the image, and of what draw() draws
   std::unique_ptr<MapImage> image;
 };
 Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,

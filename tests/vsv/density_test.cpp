@@ -255,7 +255,7 @@ TEST_F(DensityOnTheGpu, AConstantGridIsTheHomogeneousMedium) {
     MediaSetup setup = test::mediaSetup(scene);
     setup.medium.sigmaS *= 2.0f;
     setup.medium.sigmaA = setup.medium.sigmaS * glm::vec3(0.1f, 0.5f, 0.0f);
-    setup.pictureSide = 96;
+    setup.pictureSide = 64;
     MediaWorld homogeneous(device(), setup);
     setup.density = path("ones.vdb");
     MediaWorld dense(device(), setup);
@@ -302,6 +302,7 @@ TEST_F(DensityOnTheGpu, TheTableOfDepthsToTheLightIsGoodToAPercentOfTheMean) {
     MediaSetup setup = test::emptyMediaSetup({0, 1, 11}, {0.2f, 0.3f, 0}, lightW);
     setup.medium = {.sigmaS = {0.3f, 0.5f, 0.8f}, .sigmaA = {0.1f, 0.2f, 0.0f}, .g = 0.3f, .reach = 25.0f};
     setup.density = path("t.vdb");
+    setup.pictureSide = 24;  // each sample of each pixel has a way to the light of its own
     MediaWorld world(device(), setup);
     const std::vector<glm::vec3> measured = world.scattered({Integrator::Runs, 64});
     std::vector<glm::vec3> expected;

@@ -109,6 +109,7 @@ TEST_F(MediaPassTest, OtherMediaAndOtherVolumesGiveTheClosedFormToo) {
       setup.medium = c.medium;
       setup.size = c.size;
       setup.fit = c.fit;
+      setup.pictureSide = 24;
       MediaWorld world(device(), setup);
       EXPECT_LT(worstRelative(world.scattered(kRuns), unshadowedPicture(world)), c.worst)
           << place.name << ", g " << c.medium.g << ", " << volumeSizeName(c.size) << ", " << volumeFitName(c.fit);
@@ -124,7 +125,7 @@ TEST_F(MediaPassTest, AConeLightsWhatIsWithin) {
       MediaSetup setup = test::emptyMediaSetup(place.eyeW, place.targetW, place.lightW);
       setup.light.coneAxisW = glm::normalize(axis);
       setup.light.coneCos = std::cos(0.7);
-      setup.pictureSide = 20;
+      setup.pictureSide = 14;
       MediaWorld world(device(), setup);
       const std::vector<glm::vec3> expected = unshadowedPicture(world);
       if (std::ranges::all_of(expected, [](const glm::vec3& light) { return light == glm::vec3(0.0f); })) {
