@@ -20,6 +20,7 @@ TEST(TexelDensity, OfASunOnAFloorIsTheWindowsTexelsTimesTheSine) {
     // The window's own size, from the scale of its matrix: 2 / extent.
     const glm::mat4& m = fitted.map.mapLayers[0].clipFromLight;
     const double texels = 0.25 * std::abs(static_cast<double>(m[0][0]) * static_cast<double>(m[1][1])) * 512 * 512;
+    size_t onTheFloor = 0;
     for (size_t i = 0; i < seen.receivers.states.size(); ++i) {
       const SurfaceSample& sample = seen.receivers.samples[i];
       if (seen.receivers.states[i] != PixelState::Scored || sample.normalW.y < 0.999) continue;
@@ -27,7 +28,9 @@ TEST(TexelDensity, OfASunOnAFloorIsTheWindowsTexelsTimesTheSine) {
       ASSERT_TRUE(density.has_value());
       // A ray's ends round to 2^-24 of some 100 m, 6e-6 of texels of 0.05 to 0.3 m.
       EXPECT_NEAR(*density / (texels * std::sin(glm::radians(elevation))), 1.0, 2e-3);
+      ++onTheFloor;
     }
+    EXPECT_GT(onTheFloor, size_t{32 * 32 / 4}) << elevation;
   }
 }
 

@@ -111,7 +111,6 @@ TEST_F(RenderedLayers, EveryTexelHoldsTheFirstHitOfItsRay) {
       EXPECT_EQ(errors.off, 0u) << scene << ", " << kind.name << ", worst " << errors.worst << " m";
       EXPECT_LT(errors.atEdges, errors.held / (paraboloid ? 5000 : 1000)) << scene << ", " << kind.name;
       EXPECT_GT(errors.covered, errors.held / 8) << scene;
-      std::printf("%s, %s: %zu of %zu texels at edges differ\n", scene, kind.name, errors.atEdges, errors.held);
     }
   }
 }
@@ -164,9 +163,9 @@ TEST_F(RenderedLayers, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
   }
 }
 
-// Leaving the back faces of solids out uncovers silhouettes and nothing else, whichever way a layer turns the
+// Leaving the back faces of solids out changes nothing (map_image_test.cpp says why), whichever way a layer turns the
 // winding.
-TEST_F(RenderedLayers, CullingSolidsChangesOnlySilhouettes) {
+TEST_F(RenderedLayers, CullingSolidsChangesNoTexel) {
   const World world = open("contact");
   ASSERT_TRUE(std::ranges::any_of(world.buffers.draws, &Draw::solid));
   for (const Kind& kind : kindsOfAllRasters()) {
@@ -181,7 +180,9 @@ TEST_F(RenderedLayers, CullingSolidsChangesOnlySilhouettes) {
       different += all.z1[i] != culled.z1[i] ? 1 : 0;
       behind += all.z1[i] < back.zBack[i] ? 1 : 0;
     }
-    EXPECT_LT(different, all.z1.size() / 500) << kind.name;
+    // Where a front face is cut in pieces and the back face beside it is not, their edge is drawn twice: measured 1.
+    const bool inPieces = std::string(kind.name).find("tessellated") != std::string::npos;
+    EXPECT_LE(different, inPieces ? 5u : 0u) << kind.name;
     EXPECT_GT(behind, all.z1.size() / 200) << kind.name;
   }
 }

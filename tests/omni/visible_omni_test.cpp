@@ -71,8 +71,6 @@ TEST_F(VisibleOmni, TheSeamShowsNoMoreBiasErrorThanElsewhere) {
     const double expected =
         static_cast<double>(wrongElsewhere) / static_cast<double>(elsewhere) * static_cast<double>(atSeam);
     EXPECT_LE(static_cast<double>(wrongAtSeam), expected + 3.0 * std::sqrt(expected + 1.0)) << bias;
-    std::printf("%s: %zu of %zu wrong at the seam, %zu of %zu elsewhere\n", bias, wrongAtSeam, atSeam, wrongElsewhere,
-                elsewhere);
   }
 }
 

@@ -114,13 +114,16 @@ INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::ValuesIn(generatedScenes()),
 TEST(RoundTripOfFiles, realScenesLoadAgainEqual) {
   if (!fs::is_directory(GNOMON_SHARED_SCENES)) GTEST_SKIP() << "skipped: ../shared/scenes is not here";
   const Folder folder;
+  size_t scenes = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(GNOMON_SHARED_SCENES)) {
     if (entry.path().extension() != ".glb" && entry.path().extension() != ".gltf") continue;
     const Scene scene = loadGltf(entry.path());
     const fs::path path = folder / (scene.name + ".glb");
     saveGlb(scene, path);
     expectEqual(scene, loadGltf(path));
+    ++scenes;
   }
+  EXPECT_GT(scenes, 0u);
 }
 
 // Every kind of light and material at once, with awkward names, directions and numbers.

@@ -1,4 +1,4 @@
-// What planar_map_test.cpp and bias_test.cpp evaluate on both sides. The map itself is the buffer that shared/map.glsl
+// What planar_map_test.cpp and bias_on_the_gpu_test.cpp evaluate on both sides. The map itself is the buffer that shared/map.glsl
 // declares; in C++ it is the argument.
 #ifndef GNOMON_TEST_MAP_FUNCTIONS_GLSL
 #define GNOMON_TEST_MAP_FUNCTIONS_GLSL
@@ -48,7 +48,11 @@ struct BiasQuery {
   float zBack;
 };
 
-// 0 shadow, 1 lit, 2 no such method.
+const int kNoSuchBias = 999;
+const uint kAnswerShadow = 0u;
+const uint kAnswerLight = 1u;
+const uint kAnswerUnknown = 2u;  // no such method
+
 GNOMON_FN uint answerBias(ShadowMap map, BiasQuery query) {
   Receiver receiver = biasReceiver(query.method, map, query.params, query.receiver);
   MapPoint point = mapProject(map, receiver.posL);
@@ -59,7 +63,7 @@ GNOMON_FN uint answerBias(ShadowMap map, BiasQuery query) {
   tap.zBack = query.zBack;
   bool known;
   bool lit = biasLit(query.method, map, query.params, receiver, tap, known);
-  return known ? (lit ? 1u : 0u) : 2u;
+  return known ? (lit ? kAnswerLight : kAnswerShadow) : kAnswerUnknown;
 }
 
 GNOMON_SHARED_END

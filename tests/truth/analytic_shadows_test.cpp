@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -132,7 +131,6 @@ TEST(Detachment, LeakHasTheAreaThatTheConstantBiasOpens) {
   EXPECT_NEAR(area, expected, perimeter * (0.5 * stray + 0.05 * pixelWidth));
   EXPECT_EQ(outside, 0u);
   EXPECT_GT(image.count(Label::Leak), 1000u);
-  RecordProperty("leak_area", fmt::format("{} of {}", area, expected));
 }
 
 // The same without the bias's help: adaptive keeps the contact.

@@ -268,8 +268,6 @@ TEST_F(EpipolarMapOnTheGpu, PointsColumnsAndVoxelsAreThoseOfTheCpu) {
                         ? 1
                         : 0;
     }
-    std::printf("%zu points in another column, %zu with another voxel, of %zu\n", otherColumn, otherVoxel,
-                queries.size());
     // A boundary within the tolerance: twice kAngle of each step, for two angles and three methods.
     const double most = 2.0 * kAngle * static_cast<double>(queries.size());
     EXPECT_LE(otherColumn, most * (1.0 / grid.thetaStep + 1.0 / grid.phiStep));
