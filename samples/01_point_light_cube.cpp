@@ -1,10 +1,9 @@
-// A point light with a cube map: the scene's first light, six faces around it, the adaptive bias of Dou et
-// al.
+// A point light with a cube map: the scene's first light, six faces around it, the adaptive bias of Dou et al.
 //
 //   01_point_light_cube [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
 #include "base/image.h"
-#include "judge/lit_scene.h"
+#include "judge/light_on_map.h"
 #include "omni/cube_map.h"
 #include "scene/generate.h"
 
@@ -19,21 +18,18 @@ constexpr int kSide = 512;     // pixels of the picture
 constexpr int kMapSide = 512;  // texels of a face
 
 void run(const char* sceneName, const char* path) {
-  const Scene scene = openScene(sceneName);
-  const auto device = gpu::Device::create({});
-  LitScene lit(*device, scene, kSide, kSide);
+  const SceneView seen(gpu::Device::create({}), openScene(sceneName), kSide, kSide);
+  ShadowPasses passes(seen);
 
-  // A bias says what it reads of a map: this one a single layer of depth.
-  const BiasMethod& bias = findBias("adaptive");
-  MapImage map(*device, cubeParameterization().fit(lit.fitInput(kMapSide)), bias.content);
-  const MapRenderer renderer(*device);
+  // The faces enclose the whole scene (no receivers), whatever the camera sees.
+  LightOnMap lit(seen, passes, cubeParameterization(), {.side = kMapSide, .receiversW = std::vector<glm::dvec3>()});
+  const Method adaptive = atDefaults(findBias("adaptive"), seen);
+  const std::vector<float> visibility = lit.visibility(adaptive, glsl::kShadowFilterBilinear);
 
-  gpu::Commands commands(*device, "frame");
-  renderer.record(commands, lit.buffers(), map, lit.light(), CullMode::Solids);
-  lit.record(commands, map, bias, glsl::kFilterBilinear);
-  commands.submitAndWait();
-
-  writePng(path, toSrgb8(lit.picture()));
+  // So that a white surface as far from the light as the camera has radiance 0.5.
+  const float distance = glm::distance(seen.view().eyeW, glm::vec3(lit.light().positionW));
+  const Exposure exposure{.lightColor = lit.source().color * (0.5f * distance * distance), .ambient = glm::vec3(0.05f)};
+  writePng(path, toSrgb8(lit.radiance(visibility, exposure)));
   std::printf("wrote %s\n", path);
 }
 

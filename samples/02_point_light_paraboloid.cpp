@@ -1,10 +1,10 @@
-// A point light with a dual-paraboloid map of the same number of texels as the cube of 01: two layers instead
-// of six. The bias of Weiskopf & Ertl takes half of what lies between the two nearest depths.
+// A point light with a dual-paraboloid map of the same number of texels as the cube of 01: two layers instead of six.
+// The bias of Weiskopf & Ertl takes half of what lies between the two nearest depths.
 //
 //   02_point_light_paraboloid [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
 #include "base/image.h"
-#include "judge/lit_scene.h"
+#include "judge/light_on_map.h"
 #include "omni/paraboloid_map.h"
 #include "scene/generate.h"
 
@@ -19,21 +19,20 @@ constexpr int kSide = 512;     // pixels of the picture
 constexpr int kMapSide = 887;  // texels of a hemisphere: 2 * 887^2 = 6 * 512^2
 
 void run(const char* sceneName, const char* path) {
-  const Scene scene = openScene(sceneName);
-  const auto device = gpu::Device::create({});
-  LitScene lit(*device, scene, kSide, kSide);
+  const SceneView seen(gpu::Device::create({}), openScene(sceneName), kSide, kSide);
+  ShadowPasses passes(seen);
 
-  // bias.content: the map holds both layers of depth.
-  const BiasMethod& bias = findBias("dual");
-  MapImage map(*device, paraboloidParameterization().fit(lit.fitInput(kMapSide)), bias.content);
-  const MapRenderer renderer(*device);
+  // The hemispheres enclose the whole scene (no receivers), whatever the camera sees.
+  LightOnMap lit(seen, passes, paraboloidParameterization(),
+                 {.side = kMapSide, .receiversW = std::vector<glm::dvec3>()});
+  // What a bias reads of a map is drawn when it is asked for: this one reads two depths.
+  const Method dual = atDefaults(findBias("dual"), seen);
+  const std::vector<float> visibility = lit.visibility(dual, glsl::kShadowFilterBilinear);
 
-  gpu::Commands commands(*device, "frame");
-  renderer.record(commands, lit.buffers(), map, lit.light(), CullMode::Solids);
-  lit.record(commands, map, bias, glsl::kFilterBilinear);
-  commands.submitAndWait();
-
-  writePng(path, toSrgb8(lit.picture()));
+  // So that a white surface as far from the light as the camera has radiance 0.5.
+  const float distance = glm::distance(seen.view().eyeW, glm::vec3(lit.light().positionW));
+  const Exposure exposure{.lightColor = lit.source().color * (0.5f * distance * distance), .ambient = glm::vec3(0.05f)};
+  writePng(path, toSrgb8(lit.radiance(visibility, exposure)));
   std::printf("wrote %s\n", path);
 }
 

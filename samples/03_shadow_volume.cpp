@@ -1,14 +1,12 @@
-// A point light with a voxelized shadow volume: one bit a voxel for all of what the camera can see, here
-// looked up at its surfaces by the adjacent-voxel rule (Dou et al. 2014, section 3.3).
+// A point light with a voxelized shadow volume: one bit a voxel for all of what the camera can see, here looked up at
+// its surfaces by the adjacent-voxel rule (Dou et al. 2014, section 3.3).
 //
 //   03_shadow_volume [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
 #include "base/image.h"
-#include "judge/lit_scene.h"
+#include "judge/light_on_map.h"
 #include "scene/generate.h"
-#include "vsv/shadow_volume.h"
-#include "vsv/volume_renderer.h"
-#include "vsv/volume_visibility.h"
+#include "vsv/volume_parameterization.h"
 
 #include <cstdio>
 #include <exception>
@@ -21,24 +19,18 @@ constexpr int kSide = 512;                                           // pixels o
 constexpr VolumeSize kSize{.alpha = 512, .theta = 512, .phi = 256};  // voxels
 
 void run(const char* sceneName, const char* path) {
-  const Scene scene = openScene(sceneName);
-  const auto device = gpu::Device::create({});
-  LitScene lit(*device, scene, kSide, kSide);
+  const SceneView seen(gpu::Device::create({}), openScene(sceneName), kSide, kSide);
+  ShadowPasses passes(seen);
 
-  // The grid of columns, each a light ray, and the map of their nearest occluders; the bits come of those.
-  ShadowVolume volume(*device, fitVolume(lit.fitInput(kSide), kSize, VolumeFit::Frustum));
-  const MapRenderer maps(*device);
-  const VolumeRenderer volumes(*device);
-  VolumeVisibility lookUp(*device);
+  // A grid of columns, each a light ray; the nearest occluder in each; and the bits that follow from those.
+  LightOnMap lit(seen, passes, volumeParameterization(),
+                 {.options = {kVolumeSize(kSize)}, .receiversW = std::vector<glm::dvec3>()});
+  const std::vector<float> visibility = lit.visibility(atDefaults(findBias("adaptive"), seen));
 
-  gpu::Commands commands(*device, "frame");
-  volumes.record(commands, maps, lit.buffers(), volume, lit.light(), CullMode::Solids);
-  lit.record(commands, [&](VisibilityPass& into, const GBuffer& seen) {
-    lookUp.record(commands, lit.buffers(), seen, volume, into, findBias("adaptive"), false);
-  });
-  commands.submitAndWait();
-
-  writePng(path, toSrgb8(lit.picture()));
+  // So that a white surface as far from the light as the camera has radiance 0.5.
+  const float distance = glm::distance(seen.view().eyeW, glm::vec3(lit.light().positionW));
+  const Exposure exposure{.lightColor = lit.source().color * (0.5f * distance * distance), .ambient = glm::vec3(0.05f)};
+  writePng(path, toSrgb8(lit.radiance(visibility, exposure)));
   std::printf("wrote %s\n", path);
 }
 

@@ -5,11 +5,10 @@
 //   04_lamp_in_fog [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
 #include "base/image.h"
+#include "judge/light_on_map.h"
 #include "scene/generate.h"
-#include "shadow/visibility_pass.h"
 #include "vsv/media/media_pass.h"
-#include "vsv/volume_renderer.h"
-#include "vsv/volume_visibility.h"
+#include "vsv/volume_parameterization.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -23,50 +22,41 @@ constexpr int kSide = 512;             // pixels
 constexpr float kOpticalDepth = 2.5f;  // of the fog across the scene
 
 void run(const char* sceneName, const char* path) {
-  const Scene scene = openScene(sceneName);
-  const auto device = gpu::Device::create({});
-  const SceneBuffers buffers = createSceneBuffers(*device, scene);
-  const glsl::CameraView camera = cameraView(scene.cameras.at(0), kSide, kSide);
-  const MediaLightSource lamp = mediaLight(scene.lights.at(0));
-  const LightModel light{.type = LightType::Point, .positionW = lamp.positionW};
-  const glm::vec3 sigmaS(kOpticalDepth / computeBounds(scene).diagonal());  // 1/m
-  const glsl::Medium fog{.sigmaS = sigmaS, .sigmaA = {}, .g = 0.3f, .reach = defaultReach(scene, camera.eyeW)};
+  const SceneView seen(gpu::Device::create({}), openScene(sceneName), kSide, kSide);
+  const Light& source = seen.scene().lights.at(0);
+  const MediaLightSource lamp = mediaLight(source);
+  const glm::vec3 sigmaS(kOpticalDepth / seen.sceneScale());  // 1/m
+  const glsl::Medium fog{
+      .sigmaS = sigmaS, .sigmaA = {}, .g = 0.3f, .reach = defaultReach(seen.scene(), seen.view().eyeW)};
 
-  // The volume is fitted to where the view rays end, which takes a first look at the scene.
-  const GBuffer gbuffer(*device, kSide, kSide);
-  gpu::Commands look(*device, "look");
-  gbuffer.record(look, buffers, camera);
-  look.submitAndWait();
-  const Receivers receivers =
-      computeReceivers(Tracer(scene), camera, light, downloadPrimitiveIds(*device, gbuffer, buffers));
-  const std::vector<glm::dvec3> ends = mediaReceiversW(camera, receivers, fog.reach);
-  const FittedVolume fitted = fitVolume({.scene = scene, .light = light, .receiversW = ends, .camera = camera},
-                                        VolumeSize{}, VolumeFit::Frustum);
-  ShadowVolume volume(*device, fitted);
+  // The volume is fitted to where the view rays end.
+  const Receivers surfaces = computeReceivers(seen.tracer(), seen.view(), {}, seen.primitiveIds());
+  ShadowPasses passes(seen);
+  LightOnMap lit(seen, passes, volumeParameterization(), source,
+                 {.receiversW = mediaReceiversW(seen.view(), surfaces, fog.reach)});
+  const Occluders& volume = lit.occluders();
 
-  const MapRenderer maps(*device);
-  const VolumeRenderer volumes(*device);
-  VisibilityPass visibility(*device, kSide, kSide);
-  VolumeVisibility lookUp(*device);
-  MediaPass media(*device, kSide, kSide);
-  glsl::ShadeUniforms shade = shadeUniforms(camera, light, defaultBiasParams(fitted.columns.map.sceneScale));
+  const Method adaptive = atDefaults(findBias("adaptive"), seen);
+  glsl::ShadeUniforms shade = shadeUniforms(seen.view(), lit.light(), adaptive.params);
   shade.lightColor = lamp.intensity / glsl::kPi;
+  VisibilityPass& visibility = passes.visibility;
   visibility.setUniforms(shade);
-  media.setMedium(camera, fog);
+  MediaPass media(seen.device(), kSide, kSide);
+  media.setMedium(seen.view(), fog);
 
-  gpu::Commands commands(*device, "frame");
-  volumes.record(commands, maps, buffers, volume, light, CullMode::Solids);
+  gpu::Commands commands(seen.device(), "frame");
   media.recordTable(commands, volume, lamp);
-  lookUp.record(commands, buffers, gbuffer, volume, visibility, findBias("adaptive"), false);
+  volume.recordVisibility(commands, seen.buffers(), seen.gbuffer(), visibility, {.bias = *adaptive.bias});
   commands.barrier("visibility and the running integral are written -> surfaces and view rays read them");
-  media.recordSurfaces(commands, buffers, gbuffer, lamp, visibility.uniforms(), visibility.visibility(), false);
-  media.record(commands, buffers, gbuffer, volume, lamp, {.integrator = Integrator::Runs}, false);
+  media.recordSurfaces(commands, seen.buffers(), seen.gbuffer(), lamp, visibility.uniforms(), visibility.visibility(),
+                       false);
+  media.record(commands, seen.buffers(), seen.gbuffer(), volume, lamp, {.integrator = Integrator::Runs}, false);
   commands.barrier("surfaces and scattered light are written -> their sum reads them");
   media.recordSum(commands);
   commands.submitAndWait();
 
   ImageF picture(kSide, kSide, 3);
-  picture.values = gpu::downloadAs<float>(*device, media.radiance());
+  picture.values = gpu::downloadAs<float>(seen.device(), media.radiance());
   // Exposed so that three pixels in a hundred are white.
   std::vector<float> sorted = picture.values;
   const auto bright = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 97 / 100);

@@ -43,7 +43,9 @@ class Tetrahedron final : public Parameterization {
   const char* name() const override { return "tetrahedron"; }
   const char* sentence() const override { return "four layers around a point light"; }
   int layerCount(const MapOptions&) const override { return 4; }
-  Takes takes(LightType type) const override { return type == LightType::Directional ? Takes::No : Takes::Yes; }
+  LightSupport supportsLight(LightType type) const override {
+    return type == LightType::Directional ? LightSupport::No : LightSupport::Yes;
+  }
   LightModel lightModel(const Light& light, const glm::dvec3&) const override {
     return {.type = LightType::Point, .positionW = glm::dvec3(light.positionW)};
   }

@@ -161,7 +161,7 @@ void fitToPicture(const FitInput& input, const glm::dmat3& worldFromLight, glsl:
 
 }  // namespace
 
-FittedVolume fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit) {
+FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit) {
   const glm::dvec3 lightW = input.light.positionW;
   const glm::dvec3 eyeW(input.camera.eyeW);
   const float sceneScale = computeBounds(input.scene).diagonal();
@@ -174,11 +174,11 @@ FittedVolume fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit 
                     distance));
   const glm::dmat3 worldFromLight = epipolarAxes(input.camera, (eyeW - lightW) / distance);
 
-  FittedVolume volume{.grid = fullGrid(size)};
-  if (fit == VolumeFit::Frustum) fitToPicture(input, worldFromLight, volume.grid);
-  volume.grid.eyeDistance = static_cast<float>(distance);
+  glsl::EpipolarGrid grid = fullGrid(size);
+  if (fit == VolumeFit::Frustum) fitToPicture(input, worldFromLight, grid);
+  grid.eyeDistance = static_cast<float>(distance);
 
-  FittedMap& columns = volume.columns;
+  FittedMap columns;
   columns.frame = {.originW = glm::vec3(lightW),
                    .rightW = glm::vec3(worldFromLight[0]),
                    .upW = glm::vec3(worldFromLight[1]),
@@ -188,15 +188,15 @@ FittedVolume fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit 
                  .side = size.theta,
                  .rows = size.phi,
                  .sceneScale = sceneScale,
-                 .epipolar = volume.grid};
+                 .epipolar = grid};
   columns.zFar = static_cast<float>(farthestReceiver(input.scene, lightW, Distance::Radial, input.receiversW));
-  constexpr const char* kFragment = "shadow/draw_bounded_triangle.frag.glsl";
   LayerShaders& shaders = columns.shaders;
   shaders.projective = false;
   shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
-  shaders.depth = shaders.depthMasked = shaders.secondDepth = shaders.peel = kFragment;
+  shaders.fragment = "shadow/draw_bounded_triangle.frag.glsl";
+  shaders.rasterizedDepth = false;
   shaders.bounds = "vsv/bound_in_epipolar.comp.glsl";
-  return volume;
+  return columns;
 }
 
 }  // namespace gnomon

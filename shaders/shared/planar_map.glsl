@@ -26,7 +26,7 @@ GNOMON_FN MapPoint planarProject(ShadowMap map, vec3 posL) {
   return point;
 }
 
-// Unprojects depths 0 and 1, which lie in front of the light on every ray of every warp (src/shadow/planar_map.cpp sees
+// Unprojects depths 0 and 1, which lie in front of the light on every ray of every warp (src/planar/planar_map.cpp sees
 // to it). Where the light is a point, both ends lie on a line through it, and the rounding of the
 // far end's w only moves that end along the line, so the direction is good to a few ulps.
 GNOMON_FN Ray planarTexelRay(ShadowMap map, int layer, vec2 uv) {

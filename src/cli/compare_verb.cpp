@@ -1,7 +1,9 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
-#include "cli/common_flags.h"
+#include "cli/method_flags.h"
+#include "cli/scene_flags.h"
+#include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/compare/results.h"
 #include "lab/compare/table.h"
@@ -38,7 +40,7 @@ int runCompare(const CompareFlags& flags) {
 
   const Session session = openSession(flags.scene);
   const Comparison comparison = compare(session, options);
-  const std::string json = resultsJson(session, flags.scene.setup, comparison, commandLine());
+  const std::string json = resultsJson(session, comparison, commandLine());
   if (!flags.out.empty()) {
     writeTextFile(options.outDir / "results.json", json);
     writeTextFile(options.outDir / "report.html", reportHtml(options.outDir));
@@ -59,18 +61,15 @@ int runCompare(const CompareFlags& flags) {
   return 0;
 }
 
-}  // namespace
-
-Run addCompareVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<CompareFlags>();
-  CLI::App* verb =
-      app.add_subcommand("compare", "every chosen map x bias against the exact shadow: table, pictures, results.json");
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "all");
   verb->add_option("-o,--out", flags->out, "folder for report.html, pictures and results.json; none: the table only");
   verb->add_option("--json", flags->json, "write results.json here");
   verb->add_option("--fail-if", flags->failIf,
-                   "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; may be repeated");
+                   "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; metrics are " +
+                       thresholdMetrics() + "; may be repeated");
   verb->add_flag("--tune", flags->tune,
                  "each bias with a knob also at the value with the least acne + leak here, and how good that value is "
                  "from another camera and on a map of half the size");
@@ -78,6 +77,14 @@ Run addCompareVerb(CLI::App& app) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   return [flags] { return runCompare(*flags); };
+}
+
+}  // namespace
+
+Verb compareVerb() {
+  return {.name = "compare",
+          .sentence = "every chosen map x bias against the exact shadow: table, pictures, results.json",
+          .add = add};
 }
 
 }  // namespace gnomon

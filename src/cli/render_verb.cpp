@@ -1,13 +1,10 @@
 #include "base/error.h"
 #include "base/image.h"
-#include "cli/common_flags.h"
+#include "cli/method_flags.h"
+#include "cli/scene_flags.h"
 #include "cli/verbs.h"
-#include "judge/filtered_truth.h"
-#include "judge/texel_density.h"
-#include "lab/core/depth_images.h"
-#include "lab/picture/pictures.h"
+#include "lab/compare/render_picture.h"
 
-#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -25,72 +22,6 @@ struct RenderFlags {
   std::string show = "beauty";
 };
 
-constexpr std::array kShows = {"beauty", "visibility",   "truth",     "difference", "labels",
-                               "depth",  "second-depth", "layer-gap", "density"};
-
-struct Picture {
-  Image8 png;
-  ImageF exr;
-  std::vector<std::string> channels;
-};
-
-ImageF oneChannel(const Session& session, const std::vector<float>& values) {
-  ImageF image(session.view().width, session.view().height, 1);
-  image.values = values;
-  return image;
-}
-
-Picture depthImage(const Session& session, const DrawnMap& map, const std::string& show) {
-  const DepthImages depth = depthInMetres(session, map);
-  const ImageF& metres = show == "depth" ? depth.first : show == "second-depth" ? *depth.second : *depth.gap;
-  return {depthPicture(metres), metres, {"metres"}};
-}
-
-Picture renderPicture(const Session& session, const CompareOptions& options, const std::string& show) {
-  Passes passes(session.device(), session.view());
-  const Parameterization& parameterization = *options.maps.front();
-  const Method method = methodFor(session, options, *options.biases.front());
-  const Filter& filter = *options.filters.front();
-  const Exact exact = computeExact(session, parameterization);
-  const int side = mapSideOf(options, parameterization);
-  const FittedMap fitted = fitMap(session, parameterization, exact, side, options.mapOptions).fitted;
-  if (!fitted.note.empty()) std::fprintf(stderr, "gnomon: %s\n", fitted.note.c_str());
-  if (show == "density") {
-    const std::vector<float> densities = texelDensities(fitted, exact.receivers);
-    const MapOptions& how = options.mapOptions;
-    const std::string title =
-        fmt::format("{}, {} x {} x {} texels, fit {}, warp {}", parameterization.name(), fitted.map.layerCount, side,
-                    side, windowFitName(how.fit), warpName(how.warp));
-    return {densityPicture(exact.receivers, densities, title), oneChannel(session, densities), {"texels_per_m2"}};
-  }
-  const bool layers = show == "second-depth" || show == "layer-gap";
-  const DrawnMap map = drawMap(session, passes.renderers, fitted, exact,
-                               layers ? MapContent::TwoLayers : method.bias->content, options.cull);
-  if (layers || show == "depth") return depthImage(session, map, show);
-  if (show == "labels") {
-    const Judged judged = judge(session, passes, map, exact, method);
-    const std::string title = fmt::format("{} {}, {} x {} texels", parameterization.name(), method.bias->name,
-                                          fitted.map.side, fitted.map.rows);
-    std::vector<float> numbers;
-    for (const Label label : judged.labels.labels) numbers.push_back(static_cast<float>(label));
-    return {labelPicture(exact.receivers, exact.truth, judged.labels, title), oneChannel(session, numbers), {"label"}};
-  }
-  std::vector<float> truth;
-  if (show == "truth" || show == "difference")
-    truth = computeFilteredTruth(session.tracer(), exact.light, exact.receivers, exact.truth, fitted, filter.id);
-  if (show == "truth") return {visibilityPicture(exact.receivers, truth), oneChannel(session, truth), {"Y"}};
-  const std::vector<float> visibility = filteredVisibility(session, passes, map, exact, method, filter.id);
-  if (show == "difference") {
-    ImageF difference = oneChannel(session, visibility);
-    for (size_t i = 0; i < truth.size(); ++i) difference.values[i] -= truth[i];
-    return {differencePicture(exact.receivers, visibility, truth), difference, {"Y"}};
-  }
-  if (show == "visibility")
-    return {visibilityPicture(exact.receivers, visibility), oneChannel(session, visibility), {"Y"}};
-  const ImageF radiance = renderRadiance(session, passes, exact, visibility);
-  return {toSrgb8(radiance), radiance, {"R", "G", "B"}};
-}
-
 int runRender(const RenderFlags& flags) {
   const std::string extension = std::filesystem::path(flags.out).extension().string();
   if (extension != ".png" && extension != ".exr")
@@ -102,7 +33,8 @@ int runRender(const RenderFlags& flags) {
     throw UsageError("render draws one configuration: give one --maps, one --biases and one --filters");
   preloadImages();
   const Session session = openSession(flags.scene);
-  const Picture picture = renderPicture(session, options, flags.show);
+  const RenderedPicture picture = renderPicture(session, options, flags.show);
+  if (!picture.note.empty()) std::fprintf(stderr, "gnomon: %s\n", picture.note.c_str());
   if (extension == ".exr")
     writeExr(flags.out, picture.exr, picture.channels);
   else
@@ -111,20 +43,23 @@ int runRender(const RenderFlags& flags) {
   return 0;
 }
 
-}  // namespace
-
-Run addRenderVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
-  CLI::App* verb = app.add_subcommand("render", "one picture of one configuration, PNG or EXR");
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "adaptive");
   verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")->required();
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
-                   "layer-gap or density (texels per square metre)")
-      ->check(CLI::IsMember(std::vector<std::string>(kShows.begin(), kShows.end())))
+                   "layer-gap or texel-density (texels per square metre)")
+      ->check(CLI::IsMember(picturesToShow()))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };
+}
+
+}  // namespace
+
+Verb renderVerb() {
+  return {.name = "render", .sentence = "one picture of one configuration, PNG or EXR", .add = add};
 }
 
 }  // namespace gnomon

@@ -3,8 +3,8 @@
 // layers. Its mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in
 // shaders/shared/map.glsl, and a FittedMap carries the numbers those functions read.
 //
-// spot and directional are here, cube and paraboloid in omni/, the shadow volume in vsv/; lab/core/maps.h has the
-// list of all.
+// Spot and directional maps are in planar/, cube and paraboloid maps in omni/, the shadow volume in vsv/; the list of
+// all is in lab/core/maps.h.
 
 #include "scene/light_model.h"
 #include "scene/scene_buffers.h"
@@ -22,6 +22,8 @@
 
 namespace gnomon {
 
+class Occluders;
+
 struct FittedMap {
   glsl::LightFrame frame;
   glsl::ShadowMap map;
@@ -32,8 +34,17 @@ struct FittedMap {
   LayerShaders shaders;
   // What a report should say of the fit: why a warp was weakened or not applied. Empty: nothing.
   std::string note = {};
-  // Of a shadow volume's columns: the map that gives their occluders; none: their own layer is drawn.
-  std::shared_ptr<const FittedMap> lookedUpIn;
+  // Layers that show only what lies to one side of a point light, and how far behind it (over the distance) all the
+  // same; one a layer, or empty.
+  struct HalfSpace {
+    float axisZ = 1.0f;  // of L: +1 or -1
+    float beyond = 0.0f;
+  };
+  std::vector<HalfSpace> halfSpaces = {};
+  // Where each layer's square stands in an unfolded picture, in squares; empty: side by side.
+  std::vector<glm::ivec2> unfoldedAt = {};
+  // Of a shadow volume's columns: the map in which their occluders are looked up; none: their own layer is drawn.
+  std::shared_ptr<const FittedMap> occluderSource;
 };
 
 // What a map may be fitted to.
@@ -46,24 +57,54 @@ struct FitInput {
   MapOptions options = {};
 };
 
+// Whether a map can be made of a kind of light.
+enum class LightSupport {
+  No,
+  Fallback,  // where the scene has no light of a better kind
+  Yes,
+};
+
 class Parameterization {
  public:
   virtual ~Parameterization() = default;
   virtual const char* name() const = 0;      // on the command line: --maps spot
   virtual const char* sentence() const = 0;  // for --help
   virtual int layerCount(const MapOptions& options) const = 0;
-  enum class Takes { No, IfNothingElse, Yes };
-  // Whether a light of this kind can be mapped. A spot map takes any positional light; a directional map
-  // makes a sun of one where the scene has no directional light.
-  virtual Takes takes(LightType type) const = 0;
+  // A spot map takes any positional light; a directional map makes a sun of one where the scene has no
+  // directional light.
+  virtual LightSupport supportsLight(LightType type) const = 0;
+  // Whether lightModel() reads `aimW` for a light of this kind: it takes a trace to find.
+  virtual bool needsAim(LightType) const { return false; }
   // How a light is taken. `aimW` is the unit direction in which a light without one of its own is made to
-  // shine. The light is one that takes() does not refuse.
+  // shine. The light is of a kind that is supported.
   virtual LightModel lightModel(const Light& light, const glm::dvec3& aimW) const = 0;
   // Whether a bias means anything on it, and whether its texels can be filtered: a shadow volume holds no
   // depths.
-  virtual bool answers(const BiasMethod&) const { return true; }
-  virtual bool takesFilters() const { return true; }
+  virtual bool supportsBias(const BiasMethod&) const { return true; }
+  virtual bool supportsFilters() const { return true; }
   virtual FittedMap fit(const FitInput& input) const = 0;
+  // Room on the device for what fit() gave, not drawn yet (occluders.h): a map image, unless it is overridden. Throws
+  // WorldError where the device cannot hold it.
+  virtual std::unique_ptr<Occluders> createOccluders(const gpu::Device& device, const FittedMap& fitted,
+                                                     ChannelSet channels) const;
+
+  // Its options, which flags, --help, results.json and commands derive from. An option that two maps share is one
+  // constant, which both name.
+  virtual std::vector<const MapOption*> options() const { return {}; }
+  // Throws UsageError where choices do not go together.
+  virtual void checkOptions(const MapOptions&) const {}
+  // What the params of its rows say of a fit, beside the options: names and texts.
+  virtual std::vector<std::pair<std::string, std::string>> fitParams(const FittedMap&) const { return {}; }
+  // Those of half the resolution, where options say what that is beside FitInput::side.
+  virtual MapOptions halved(const MapOptions& given) const { return given; }
+  // Other ways to draw it that a bench should time.
+  struct Variant {
+    std::string name;
+    MapOptions options;
+  };
+  virtual std::vector<Variant> variants(const MapOptions& /*given*/) const { return {}; }
+  // Whether it holds every direction around a light, so that a view ray can be marched through a medium with it.
+  virtual bool looksAround() const { return false; }
 };
 
 }  // namespace gnomon

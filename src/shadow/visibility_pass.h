@@ -22,9 +22,12 @@ class VisibilityPass {
   // Compiles its pipeline on first use; throws WorldError that names a user's file and line where that does
   // not compile. A diagnosis is of the unfiltered map: with a filter there is none.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const MapImage& map,
-              const BiasMethod& method, bool diagnose, int filter = glsl::kFilterNone);
+              const BiasMethod& method, bool diagnose, const ChosenFilter& filter = glsl::kShadowFilterNone);
 
   void setUniforms(const glsl::ShadeUniforms& uniforms);
+
+  // Of other looks-up into these buffers (ShadowVolume), compiled at first use.
+  const gpu::ComputePrograms& programs() const { return programs_; }
 
   glm::uvec3 groupCount() const { return groupCount_; }  // of kShadeGroupSide^2, for the whole picture
   const gpu::Buffer& uniforms() const { return uniforms_; }
@@ -34,7 +37,7 @@ class VisibilityPass {
  private:
   // Specialization constants of shade_visibility.comp.glsl, in the order of their ids.
   struct VariantKey {
-    int32_t method, diagnose, mapKind, layerCount, instanced, secondLayer, filter;
+    int32_t method, diagnose, mapKind, layerCount, instanced, channels, filter, tapCount;
     const UserBias* user;
     bool operator==(const VariantKey&) const = default;
   };
@@ -48,6 +51,7 @@ class VisibilityPass {
   glm::uvec3 groupCount_;
   gpu::Buffer uniforms_, visibility_, diagnosis_;
   std::vector<std::unique_ptr<Variant>> variants_;
+  gpu::ComputePrograms programs_;
 };
 
 class RadiancePass {

@@ -1,9 +1,8 @@
 // Where layers meet, a map is no worse than elsewhere: pixels within two texels of a paraboloid's rim or of a
 // cube's edge against the others, and against themselves with the seam turned away.
-#include "judge/filtered_truth.h"
 #include "lab/compare/compare.h"
-#include "lab/core/map_set.h"
 #include "lab/core/maps.h"
+#include "omni/paraboloid_map.h"
 
 #include <algorithm>
 #include <array>
@@ -31,33 +30,34 @@ class Seams {
  public:
   explicit Seams(const std::string& scene)
       : session_({.validation = true}, {.scene = scene, .size = "384"}),
-        passes_(session_.device(), session_.view()),
-        exact_(computeExact(session_, *parseMaps("paraboloid").front())) {}
+        passes_(session_),
+        light_(openLight(session_, passes_, *parseMaps("paraboloid").front(), {})) {}
 
   // The seam's plane holds the light, what the middle of the picture shows, and the camera's up: it runs
   // through the picture from top to bottom.
   glm::dvec3 axisThroughTheMiddle() const {
-    const Receivers& receivers = exact_.receivers;
+    const Receivers& receivers = light_.receivers();
     const auto middle = static_cast<std::ptrdiff_t>(receivers.states.size() / 2 + receivers.width / 2);
     std::ptrdiff_t nearest = -1;
     for (std::ptrdiff_t i = 0; i < std::ssize(receivers.states); ++i)
       if (receivers.states[i] == PixelState::Scored &&
           (nearest < 0 || std::abs(i - middle) < std::abs(nearest - middle)))
         nearest = i;
-    const glm::dvec3 toMiddle = receivers.samples[nearest].positionW - exact_.light.positionW;
+    const glm::dvec3 toMiddle = receivers.samples[nearest].positionW - light_.light().positionW;
     return glm::normalize(glm::cross(toMiddle, glm::dvec3(session_.view().upW)));
   }
 
-  Fit fit(const char* map, int side, const MapOptions& options) const {
-    return fitMap(session_, *parseMaps(map).front(), exact_, side, options);
+  LightOnMap mapped(const char* map, int side, const MapOptions& options) {
+    return openLight(session_, passes_, *parseMaps(map).front(), {.side = side, .options = options});
   }
 
   // Of each pixel; infinity where it is not scored.
   std::vector<double> texelsToSeam(const FittedMap& fitted) const {
-    std::vector<double> texels(exact_.receivers.states.size(), INFINITY);
+    const Receivers& receivers = light_.receivers();
+    std::vector<double> texels(receivers.states.size(), INFINITY);
     for (size_t i = 0; i < texels.size(); ++i) {
-      if (exact_.receivers.states[i] != PixelState::Scored) continue;
-      const glm::vec3 posL = glsl::lightFromWorld(fitted.frame, glm::vec3(exact_.receivers.samples[i].positionW));
+      if (receivers.states[i] != PixelState::Scored) continue;
+      const glm::vec3 posL = glsl::lightFromWorld(fitted.frame, glm::vec3(receivers.samples[i].positionW));
       const glm::dvec2 fromCenter = glm::dvec2(glsl::mapProject(fitted.map, posL).uv) - 0.5;
       const double reach = fitted.map.kind == glsl::kMapParaboloid
                                ? glm::length(fromCenter)
@@ -72,16 +72,13 @@ class Seams {
     LabelImage labels;
     std::vector<std::vector<double>> squares;
   };
-  Scores score(const Fit& fit, const char* bias) {
-    MapSet maps(session_, passes_.renderers, fit.fitted, exact_, CullMode::Solids);
-    const Method method = methodFor(session_, {}, findBias(bias));
-    const DrawnMap& map = maps.with(method.bias->content);
-    const Judged judged = judge(session_, passes_, map, exact_, method);
+  Scores score(LightOnMap& lit, const char* bias) const {
+    const Method method = atDefaults(findBias(bias), session_);
+    const LabelledResult judged = lit.judge(method);
     Scores scores{.labels = judged.labels, .squares = {}};
     for (const Filter& filter : filters()) {
-      const std::vector<float> truth =
-          computeFilteredTruth(session_.tracer(), exact_.light, exact_.receivers, exact_.truth, fit.fitted, filter.id);
-      std::vector<float> visibility = filteredVisibility(session_, passes_, map, exact_, method, filter.id);
+      const std::vector<float> truth = lit.filteredTruth(filter.id);
+      std::vector<float> visibility = lit.visibility(method, filter.id);
       for (const size_t pixel : judged.edgeOn) visibility[pixel] = truth[pixel];
       std::vector<double>& squares = scores.squares.emplace_back(truth.size());
       for (size_t i = 0; i < truth.size(); ++i)
@@ -94,7 +91,7 @@ class Seams {
   std::array<Zone, 2> zones(const Scores& scores, size_t filter, const std::vector<double>& distance) const {
     std::array<Zone, 2> zones;
     for (size_t i = 0; i < distance.size(); ++i) {
-      if (exact_.receivers.states[i] != PixelState::Scored) continue;
+      if (light_.receivers().states[i] != PixelState::Scored) continue;
       Zone& zone = zones[distance[i] <= kNearSeam ? 0 : 1];
       const Label label = scores.labels.labels[i];
       ++zone.pixels;
@@ -108,8 +105,8 @@ class Seams {
 
  private:
   Session session_;
-  Passes passes_;
-  Exact exact_;
+  ShadowPasses passes_;
+  LightOnMap light_;
 };
 
 // A sum of errors of at most 1 each scatters by the root of its expectation; three of those are in hand.
@@ -123,26 +120,25 @@ TEST_P(SeamsTest, ShowNoMoreErrorThanElsewhere) {
   std::string scene = GetParam();
   if (scene.ends_with(".glb")) {
     scene = std::string(GNOMON_SHARED_SCENES) + "/" + scene;
-    if (!std::filesystem::exists(scene)) GTEST_SKIP() << "skipped: " << scene << " is not here";
+    if (!std::filesystem::is_directory(GNOMON_SHARED_SCENES)) GTEST_SKIP() << "skipped: ../shared/scenes is not here";
   }
   Seams seams(scene);
-  const Fit through = seams.fit("paraboloid", 887, {.paraboloidAxisW = seams.axisThroughTheMiddle()});
-  const Fit away = seams.fit("paraboloid", 887, {});
-  const Fit cube = seams.fit("cube", 512, {});
+  LightOnMap through = seams.mapped("paraboloid", 887, {kParaboloidAxisW(seams.axisThroughTheMiddle())});
+  LightOnMap away = seams.mapped("paraboloid", 887, {});
+  LightOnMap cube = seams.mapped("cube", 512, {});
   for (const char* bias : {"adaptive", "dual"}) {
     const Seams::Scores turned = seams.score(away, bias);
-    for (const Fit* fit : {&through, &cube}) {
-      const std::vector<double> distance = seams.texelsToSeam(fit->fitted);
-      const Seams::Scores scores = seams.score(*fit, bias);
+    for (LightOnMap* lit : {&through, &cube}) {
+      const std::vector<double> distance = seams.texelsToSeam(lit->fitted());
+      const Seams::Scores scores = seams.score(*lit, bias);
       for (size_t f = 0; f < filters().size(); ++f) {
         const auto [at, elsewhere] = seams.zones(scores, f, distance);
         const Zone same = seams.zones(turned, f, distance)[0];
-        const std::string what = fmt::format("{} {} {}", fit == &cube ? "cube" : "paraboloid", bias, filters()[f].name);
-        fmt::print(
-            "{:<32} {:6} pixels at the seam: bias error {:.3f}% (elsewhere {:.3f}%, turned away "
-            "{:.3f}%), rmse {:.4f} ({:.4f}, {:.4f})\n",
-            what, at.pixels, 100.0 * at.biasError(), 100.0 * elsewhere.biasError(), 100.0 * same.biasError(), at.rmse(),
-            elsewhere.rmse(), same.rmse());
+        const std::string what = fmt::format(
+            "{} {} {}: {} pixels at the seam; bias error {:.3f}% (elsewhere {:.3f}%, turned away {:.3f}%), "
+            "rmse {:.4f} ({:.4f}, {:.4f})",
+            lit == &cube ? "cube" : "paraboloid", bias, filters()[f].name, at.pixels, 100.0 * at.biasError(),
+            100.0 * elsewhere.biasError(), 100.0 * same.biasError(), at.rmse(), elsewhere.rmse(), same.rmse());
         EXPECT_GT(at.pixels, 300u) << what;
         const auto pixels = static_cast<double>(at.pixels);
         expectNoMore(static_cast<double>(at.wrong), pixels * elsewhere.biasError(), what);

@@ -63,7 +63,7 @@ TEST_F(SetupTest, EveryMapFindsALightItCanTake) {
     const Tracer tracer(scene);
     for (const Parameterization* map : parameterizations()) {
       const Light light = chooseLight({}, tracer, *map);
-      EXPECT_NE(map->takes(light.type), Parameterization::Takes::No) << generated.name << " " << map->name();
+      EXPECT_NE(map->supportsLight(light.type), LightSupport::No) << generated.name << " " << map->name();
     }
   }
 }

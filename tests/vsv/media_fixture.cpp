@@ -57,16 +57,15 @@ MediaWorld::MediaWorld(const gpu::Device& device, const MediaSetup& given)
   fittedCube_ = cubeParameterization().fit(input);
   FitInput paraboloidInput = input;
   paraboloidInput.side = static_cast<int>(setup.mapSide * std::sqrt(3.0));  // as many texels
-  volume = std::make_unique<ShadowVolume>(
-      device, fitVolume(input, setup.size, setup.fit),
-      setup.source == VolumeSource::Resample ? std::make_shared<const FittedMap>(fittedCube_) : nullptr);
+  FittedMap columns = fitVolume(input, setup.size, setup.fit);
+  if (setup.source == VolumeSource::Resample) columns.occluderSource = std::make_shared<const FittedMap>(fittedCube_);
+  volume = std::make_unique<ShadowVolume>(device, columns);
   cube = std::make_unique<MapImage>(device, fittedCube_);
   fittedParaboloid_ = paraboloidParameterization().fit(paraboloidInput);
   paraboloid = std::make_unique<MapImage>(device, fittedParaboloid_);
   const MapRenderer maps(device);
-  const VolumeRenderer renderer(device);
   gpu::Commands commands(device, "volume and maps");
-  renderer.record(commands, maps, buffers, *volume, light, CullMode::None);
+  volume->recordDrawing(commands, maps, buffers, light, CullMode::None);
   maps.record(commands, buffers, *cube, light, CullMode::None);
   maps.record(commands, buffers, *paraboloid, light, CullMode::None);
   commands.submitAndWait();
@@ -85,20 +84,19 @@ void MediaWorld::removeShadows() {
   cube = std::make_unique<MapImage>(device_, fittedCube_);
   paraboloid = std::make_unique<MapImage>(device_, fittedParaboloid_);
   gpu::Commands commands(device_, "no shadows");
-  commands.fill(volume->bits(), 0);
+  commands.fill(*volume->bits(), 0);
   maps.record(commands, nothing, *cube, light, CullMode::None);
   maps.record(commands, nothing, *paraboloid, light, CullMode::None);
   commands.submitAndWait();
 }
 
 std::vector<glm::vec3> MediaWorld::scattered(const MediaMethod& method, bool ofParaboloid) {
-  const MediaVisibility visibility = method.integrator != Integrator::March ? MediaVisibility(*volume)
-                                     : ofParaboloid                         ? MediaVisibility(*paraboloid)
-                                                                            : MediaVisibility(*cube);
+  const MapImage& map = ofParaboloid ? *paraboloid : *cube;
+  const Occluders& occluders = method.integrator == Integrator::March ? static_cast<const Occluders&>(map) : *volume;
   gpu::Commands commands(device_, "media");
-  pass.recordTable(commands, visibility, setup.light);
+  pass.recordTable(commands, occluders, setup.light);
   commands.barrier("the running integral is written -> pixels read it");
-  pass.record(commands, buffers, gbuffer, visibility, setup.light, method, false);
+  pass.record(commands, buffers, gbuffer, occluders, setup.light, method, false);
   commands.submitAndWait();
   return gpu::downloadAs<glm::vec3>(device_, pass.inScattered());
 }

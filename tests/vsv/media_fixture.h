@@ -4,7 +4,8 @@
 #include "scene/generate.h"
 #include "tests/gpu_fixture.h"
 #include "vsv/media/media_pass.h"
-#include "vsv/volume_renderer.h"
+#include "vsv/shadow_volume.h"
+#include "vsv/volume_parameterization.h"
 
 #include <memory>
 #include <optional>

@@ -1,5 +1,6 @@
 // fitVolume: what the camera sees is covered, and little more, wherever the light is.
 #include "base/error.h"
+#include "vsv/volume_parameterization.h"
 #include "vsv_fixture.h"
 
 #include "shared/volume_lookup.glsl"
@@ -17,7 +18,7 @@ struct Fitted {
   LightModel light;
   glsl::CameraView view;
   std::vector<glm::dvec3> receivers;
-  FittedVolume volume;
+  FittedMap columns;
 };
 
 Scene boxOf(float half) {
@@ -37,16 +38,16 @@ Fitted fitFor(const glm::dvec3& lightW, const Camera& camera, VolumeFit fit, std
     for (int x = 0; x <= 40; ++x)
       f.receivers.push_back(eye + distances(random) * (forward + right * ((x / 20.0 - 1.0) * f.view.tanHalfX) +
                                                        up * ((y / 15.0 - 1.0) * f.view.tanHalfY)));
-  f.volume = fitVolume({.scene = f.scene, .light = f.light, .receiversW = f.receivers, .camera = f.view},
-                       {.alpha = 128, .theta = 96, .phi = 128}, fit);
+  f.columns = fitVolume({.scene = f.scene, .light = f.light, .receiversW = f.receivers, .camera = f.view},
+                        {.alpha = 128, .theta = 96, .phi = 128}, fit);
   return f;
 }
 
 void expectCovered(const Fitted& f) {
-  const glsl::ShadowMap& map = f.volume.columns.map;
-  const glsl::EpipolarGrid& grid = f.volume.grid;
+  const glsl::ShadowMap& map = f.columns.map;
+  const glsl::EpipolarGrid& grid = f.columns.map.epipolar;
   for (const glm::dvec3& receiver : f.receivers) {
-    const glm::vec3 posL = glsl::lightFromWorld(f.volume.columns.frame, glm::vec3(receiver));
+    const glm::vec3 posL = glsl::lightFromWorld(f.columns.frame, glm::vec3(receiver));
     ASSERT_TRUE(glsl::mapProject(map, posL).covered);
     const float alpha = glsl::epipolarFromLight(grid.eyeDistance, posL).alpha;
     ASSERT_GE(alpha, grid.alphaLower);
@@ -68,7 +69,7 @@ TEST(VolumeFitTest, CoversEverythingSeenWhereverTheLightIs) {
     const Fitted f = fitFor(lightW, camera, i % 8 == 0 ? VolumeFit::Full : VolumeFit::Frustum, random);
     expectCovered(f);
     if (HasFatalFailure()) FAIL() << i;
-    round += i % 8 != 0 && glsl::thetaGoesRound(f.volume.grid) ? 1 : 0;
+    round += i % 8 != 0 && glsl::thetaGoesRound(f.columns.map.epipolar) ? 1 : 0;
   }
   EXPECT_GT(round, 10);
   EXPECT_LT(round, 200);
@@ -78,19 +79,19 @@ TEST(VolumeFitTest, TheEpipoleOnScreenOffScreenAndBehind) {
   std::mt19937 random(1);
   const Camera camera = lookAt("", {0, 0, 0}, {0, 0, -1}, 1.0f);
   const Fitted onScreen = fitFor({0.3, 0.2, -4.0}, camera, VolumeFit::Frustum, random);
-  EXPECT_TRUE(glsl::thetaGoesRound(onScreen.volume.grid));
-  EXPECT_EQ(onScreen.volume.grid.alphaLower, 0.0f);
-  EXPECT_LT(glsl::alphaUpper(onScreen.volume.grid), 1.0f);
+  EXPECT_TRUE(glsl::thetaGoesRound(onScreen.columns.map.epipolar));
+  EXPECT_EQ(onScreen.columns.map.epipolar.alphaLower, 0.0f);
+  EXPECT_LT(glsl::alphaUpper(onScreen.columns.map.epipolar), 1.0f);
   const Fitted offScreen = fitFor({5.0, 0.2, -1.0}, camera, VolumeFit::Frustum, random);
-  EXPECT_FALSE(glsl::thetaGoesRound(offScreen.volume.grid));
-  EXPECT_GT(offScreen.volume.grid.alphaLower, 0.5f);
-  EXPECT_LT(offScreen.volume.grid.thetaStep * 96.0f, 3.2f);
+  EXPECT_FALSE(glsl::thetaGoesRound(offScreen.columns.map.epipolar));
+  EXPECT_GT(offScreen.columns.map.epipolar.alphaLower, 0.5f);
+  EXPECT_LT(offScreen.columns.map.epipolar.thetaStep * 96.0f, 3.2f);
   const Fitted behind = fitFor({0.3, 0.2, 4.0}, camera, VolumeFit::Frustum, random);
-  EXPECT_TRUE(glsl::thetaGoesRound(behind.volume.grid));
-  EXPECT_GT(behind.volume.grid.alphaLower, 2.0f);
-  EXPECT_NEAR(glsl::alphaUpper(behind.volume.grid), kPi, 0.02);
+  EXPECT_TRUE(glsl::thetaGoesRound(behind.columns.map.epipolar));
+  EXPECT_GT(behind.columns.map.epipolar.alphaLower, 2.0f);
+  EXPECT_NEAR(glsl::alphaUpper(behind.columns.map.epipolar), kPi, 0.02);
   const Fitted above = fitFor({0.0, 4.0, 0.0}, camera, VolumeFit::Frustum, random);  // the axis is the camera's up
-  EXPECT_FALSE(glsl::thetaGoesRound(above.volume.grid));
+  EXPECT_FALSE(glsl::thetaGoesRound(above.columns.map.epipolar));
   for (const Fitted* f : {&onScreen, &offScreen, &behind, &above}) expectCovered(*f);
 }
 
@@ -102,10 +103,10 @@ TEST(VolumeFitTest, TheRangesAreTight) {
     const Camera camera = lookAt("any", {place(random), place(random), place(random)},
                                  {place(random), place(random), place(random)}, 0.9f);
     const Fitted f = fitFor({place(random), place(random), place(random)}, camera, VolumeFit::Frustum, random);
-    const glsl::EpipolarGrid& grid = f.volume.grid;
+    const glsl::EpipolarGrid& grid = f.columns.map.epipolar;
     float alphaLeast = 10.0f, alphaMost = 0.0f, phiMost = 0.0f, stepsLeast = 1e9f, stepsMost = 0.0f;
     for (const glm::dvec3& receiver : f.receivers) {
-      const glm::vec3 posL = glsl::lightFromWorld(f.volume.columns.frame, glm::vec3(receiver));
+      const glm::vec3 posL = glsl::lightFromWorld(f.columns.frame, glm::vec3(receiver));
       const glsl::EpipolarPoint at = glsl::epipolarFromLight(grid.eyeDistance, posL);
       alphaLeast = std::min(alphaLeast, at.alpha);
       alphaMost = std::max(alphaMost, at.alpha);
@@ -139,10 +140,10 @@ TEST(VolumeFitTest, ALightAtTheEyeIsRefusedByName) {
 }
 
 TEST(VolumeFitTest, SizesOnTheCommandLine) {
-  EXPECT_EQ(parseVolumeSize("512x1024x256"), (VolumeSize{.alpha = 512, .theta = 1024, .phi = 256}));
+  EXPECT_EQ(kVolumeSize.parse("512x1024x256"), (VolumeSize{.alpha = 512, .theta = 1024, .phi = 256}));
   for (const char* wrong :
        {"", "512", "512x512", "512x512x100", "0x512x128", "512x512x128x", "512 x512x128", "-5x5x128", "99999x2x128"})
-    EXPECT_THROW(parseVolumeSize(wrong), UsageError) << wrong;
+    EXPECT_THROW(kVolumeSize.parse(wrong), UsageError) << wrong;
 }
 
 }  // namespace

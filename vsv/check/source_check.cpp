@@ -31,7 +31,7 @@ float fusedTolerance(float value) {
 
 // The source's map with its depths in host memory.
 struct HostSource {
-  const FittedVolume& volume;
+  const FittedMap& columns;
   const FittedMap& map;
   std::vector<float> depths;
 
@@ -43,9 +43,8 @@ struct HostSource {
   }
 };
 
-glm::vec3 columnDirection(const FittedVolume& volume, int theta, int phi) {
-  const glsl::ShadowMap& columns = volume.columns.map;
-  return glsl::mapTexelRay(columns, 0, glsl::mapTexelCenter(columns, {theta, phi})).dir;
+glm::vec3 columnDirection(const FittedMap& columns, int theta, int phi) {
+  return glsl::mapTexelRay(columns.map, 0, glsl::mapTexelCenter(columns.map, {theta, phi})).dir;
 }
 
 struct Found {
@@ -56,10 +55,10 @@ struct Found {
 // Of the texels that rounding may choose, the one whose answer is nearest the GPU's.
 Found lookUp(const HostSource& source, const glm::vec3& dirL, float measured) {
   const glsl::ShadowMap& map = source.map.map;
-  const glm::vec3 dirS = glsl::sourceDirection(source.volume.columns.frame, source.map.frame, dirL);
+  const glm::vec3 dirS = glsl::sourceDirection(source.columns.frame, source.map.frame, dirL);
   const auto alphaAt = [&](const glsl::MapPoint& place) {
     return glsl::alphaLookedUp(map, place, source.depthAt(place.layer, glsl::mapTexel(map, place.uv)), dirS, dirL,
-                               source.volume.grid.eyeDistance);
+                               source.columns.map.epipolar.eyeDistance);
   };
   const glsl::MapPoint center = glsl::mapProject(map, dirS);
   const glm::ivec2 centerTexel = glsl::mapTexel(map, center.uv);
@@ -83,7 +82,7 @@ struct HostOccluders {
 };
 
 HostOccluders findOccluders(const HostSource& source, std::span<const float> measured) {
-  const glsl::EpipolarGrid& grid = source.volume.grid;
+  const glsl::EpipolarGrid& grid = source.columns.map.epipolar;
   HostOccluders host{.alpha = std::vector<float>(measured.size()),
                      .tolerance = std::vector<float>(measured.size()),
                      .betweenTexels = std::vector<uint8_t>(measured.size(), 0)};
@@ -96,7 +95,7 @@ HostOccluders findOccluders(const HostSource& source, std::span<const float> mea
           host.tolerance[c] = fusedTolerance(host.alpha[c]);
           continue;
         }
-        const Found found = lookUp(source, columnDirection(source.volume, theta, phi), measured[c]);
+        const Found found = lookUp(source, columnDirection(source.columns, theta, phi), measured[c]);
         host.alpha[c] = found.alpha;
         host.betweenTexels[c] = found.betweenTexels;
         host.tolerance[c] = alphaTolerance(found.alpha, phiCenter(grid, phi));
@@ -107,13 +106,13 @@ HostOccluders findOccluders(const HostSource& source, std::span<const float> mea
 }
 
 const FittedMap& sourceOf(const ShadowVolume& volume) {
-  const FittedMap& columns = volume.fitted().columns;
-  return columns.lookedUpIn ? *columns.lookedUpIn : columns;
+  const FittedMap& columns = volume.fitted();
+  return columns.occluderSource ? *columns.occluderSource : columns;
 }
 
 // The ray through the centre of the texel that a column is looked up in.
-RayD sourceRayW(const FittedVolume& volume, const FittedMap& source, int theta, int phi) {
-  const glm::vec3 dirS = glsl::sourceDirection(volume.columns.frame, source.frame, columnDirection(volume, theta, phi));
+RayD sourceRayW(const FittedMap& columns, const FittedMap& source, int theta, int phi) {
+  const glm::vec3 dirS = glsl::sourceDirection(columns.frame, source.frame, columnDirection(columns, theta, phi));
   const glsl::MapPoint point = glsl::mapProject(source.map, dirS);
   const glm::vec2 center = glsl::mapTexelCenter(source.map, glsl::mapTexel(source.map, point.uv));
   const glm::dvec3 dir(glsl::mapTexelRay(source.map, point.layer, center).dir);
@@ -156,7 +155,7 @@ SourceCheck checkSource(const gpu::Device& device, const ShadowVolume& volume, c
 
 ColumnSource columnSource(const ShadowVolume& volume) {
   ColumnSource source;
-  const glsl::EpipolarGrid grid = volume.fitted().grid;
+  const glsl::EpipolarGrid grid = volume.grid();
   source.rounding = [grid](double alphaOccluder, int phi) {
     return static_cast<double>(alphaTolerance(static_cast<float>(alphaOccluder), phiCenter(grid, phi)));
   };

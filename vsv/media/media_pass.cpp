@@ -119,7 +119,7 @@ void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& me
   gpu::upload(device_, uniforms_, gpu::asPush(glsl::MediaUniforms{.camera = camera, .medium = medium}));
 }
 
-void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visibility, const MediaLightSource& light) {
+void MediaPass::recordTable(gpu::Commands& commands, const Occluders& occluders, const MediaLightSource& light) {
   commands.beginStage("media table");
   if (density_ != nullptr) {
     const glsl::DensityPush push{.light = pushFor(light, {}, false),
@@ -130,41 +130,35 @@ void MediaPass::recordTable(gpu::Commands& commands, const MediaVisibility& visi
                       {{glsl::kBindDensity, density_->words},
                        {glsl::kBindDensityPlace, density_->place},
                        {glsl::kBindLightDepth, lightDepth_}});
-  } else if (visibility.volume != nullptr) {
-    commands.dispatch(programs_.get("vsv/tabulate_scattering.comp.glsl"),
-                      {groups(glsl::kTableRows, glsl::kTableGroupSize), 1, 1}, {},
-                      {{glsl::kBindMap, visibility.volume->uniforms()},
-                       {glsl::kBindMedia, uniforms_},
-                       {glsl::kBindRunning, running_}});
+  } else if (occluders.bits() != nullptr) {
+    commands.dispatch(
+        programs_.get("vsv/tabulate_scattering.comp.glsl"), {groups(glsl::kTableRows, glsl::kTableGroupSize), 1, 1}, {},
+        {{glsl::kBindMap, occluders.uniforms()}, {glsl::kBindMedia, uniforms_}, {glsl::kBindRunning, running_}});
   }
   commands.endStage();
 }
 
 void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                       const MediaVisibility& visibility, const MediaLightSource& light, const MediaMethod& method,
-                       bool add) {
+                       const Occluders& occluders, const MediaLightSource& light, const MediaMethod& method, bool add) {
   const bool marchesMap = method.integrator == Integrator::March;
-  GNOMON_CHECK(marchesMap ? visibility.map != nullptr : visibility.volume != nullptr);
+  GNOMON_CHECK_EQ(marchesMap, occluders.bits() == nullptr);
   GNOMON_CHECK(method.steps > 0 || (!marchesMap && density_ == nullptr));
   std::vector<gpu::Binding> bindings = {
-      {glsl::kBindPositions, scene.positions},
-      {glsl::kBindTriangles, scene.triangles},
-      {glsl::kBindInstances, scene.instances},
-      {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
-      {glsl::kBindMedia, uniforms_},
-      {glsl::kBindInScattered, inScattered_},
-      {glsl::kBindMap, marchesMap ? visibility.map->uniforms() : visibility.volume->uniforms()}};
+      {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},
+      {glsl::kBindInstances, scene.instances}, {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+      {glsl::kBindMedia, uniforms_},           {glsl::kBindInScattered, inScattered_},
+      {glsl::kBindMap, occluders.uniforms()}};
   const glsl::MediaPush push = pushFor(light, method, add);
   const gpu::Specialization instanced{.id = 4, .value = scene.instanced ? 1 : 0};
   commands.beginStage("media integrate");
   if (density_ != nullptr) {
-    recordDensity(commands, visibility, light, push, instanced, std::move(bindings));
+    recordDensity(commands, occluders, light, push, instanced, std::move(bindings));
   } else if (marchesMap) {
-    bindings.emplace_back(glsl::kBindMapDepth, visibility.map->depth());
-    commands.dispatch(programs_.get("vsv/march_map.comp.glsl", {{.id = 0, .value = visibility.map->kind()}, instanced}),
+    bindings.emplace_back(glsl::kBindMapDepth, occluders.depth());
+    commands.dispatch(programs_.get("vsv/march_map.comp.glsl", {{.id = 0, .value = occluders.kind()}, instanced}),
                       groupCount_, gpu::asPush(push), bindings);
   } else {
-    bindings.emplace_back(glsl::kBindBits, visibility.volume->bits());
+    bindings.emplace_back(glsl::kBindBits, *occluders.bits());
     bindings.emplace_back(glsl::kBindRunning, running_);
     commands.dispatch(programs_.get("vsv/integrate_bits.comp.glsl",
                                     {{.id = 0, .value = bitsIntegrator(method.integrator)}, instanced}),
@@ -173,22 +167,20 @@ void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const
   commands.endStage();
 }
 
-// One of the two sources of visibility is bound and not read.
-void MediaPass::recordDensity(gpu::Commands& commands, const MediaVisibility& visibility, const MediaLightSource& light,
+// Of bits and depths one is bound and not read.
+void MediaPass::recordDensity(gpu::Commands& commands, const Occluders& occluders, const MediaLightSource& light,
                               const glsl::MediaPush& lightPush, const gpu::Specialization& instanced,
                               std::vector<gpu::Binding> bindings) {
-  const bool ofMap = visibility.map != nullptr;
-  bindings.emplace_back(glsl::kBindMapDepth, ofMap ? visibility.map->depth() : visibility.volume->source().depth());
-  bindings.emplace_back(glsl::kBindBits, ofMap ? lightDepth_ : visibility.volume->bits());
+  bindings.emplace_back(glsl::kBindMapDepth, occluders.depth());
+  bindings.emplace_back(glsl::kBindBits, occluders.bits() != nullptr ? *occluders.bits() : lightDepth_);
   bindings.emplace_back(glsl::kBindDensity, density_->words);
   bindings.emplace_back(glsl::kBindDensityPlace, density_->place);
   bindings.emplace_back(glsl::kBindLightDepth, lightDepth_);
   bindings.emplace_back(glsl::kBindEyeDepth, eyeDepth_);
   const glsl::DensityPush push{.light = lightPush,
                                .reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW)};
-  const int kind = ofMap ? visibility.map->kind() : glsl::kMapEpipolar;
-  commands.dispatch(programs_.get("vsv/march_density.comp.glsl", {{.id = 0, .value = kind}, instanced}), groupCount_,
-                    gpu::asPush(push), bindings);
+  commands.dispatch(programs_.get("vsv/march_density.comp.glsl", {{.id = 0, .value = occluders.kind()}, instanced}),
+                    groupCount_, gpu::asPush(push), bindings);
 }
 
 void MediaPass::recordSurfaces(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,

@@ -3,8 +3,8 @@
 // or by marching through a shadow map. The model is in shaders/shared/medium.glsl.
 
 #include "scene/gbuffer.h"
+#include "shadow/occluders.h"
 #include "vsv/media/density.h"
-#include "vsv/shadow_volume.h"
 
 #include "shared/media_pass.glsl"
 
@@ -37,14 +37,6 @@ struct MediaLightSource {
 // Point and spot lights. Throws WorldError where it is a directional one.
 MediaLightSource mediaLight(const Light& light);
 
-// Where visibility comes from: a volume (Runs, Bits, Popcount) or a map (March) of the light.
-struct MediaVisibility {
-  const ShadowVolume* volume = nullptr;
-  const MapImage* map = nullptr;
-  MediaVisibility(const ShadowVolume& v) : volume(&v) {}
-  MediaVisibility(const MapImage& m) : map(&m) {}
-};
-
 // Where the view rays of all pixels end, and the eye: what a volume or map for a medium is fitted to
 // (FitInput::receiversW). `reach`: Medium::reach.
 std::vector<glm::dvec3> mediaReceiversW(const glsl::CameraView& camera, const Receivers& receivers, double reach);
@@ -62,13 +54,13 @@ class MediaPass {
   // The table that record() reads: once a frame and light, before it, and a barrier between. Homogeneous: the
   // running integral in the frame of the volume, nothing for a map. Heterogeneous: the density between the
   // light and what is about it. Stage "media table".
-  void recordTable(gpu::Commands& commands, const MediaVisibility& visibility, const MediaLightSource& light);
+  void recordTable(gpu::Commands& commands, const Occluders& occluders, const MediaLightSource& light);
 
-  // Light scattered towards the eye. In a heterogeneous medium every integrator marches, and the visibility
-  // says whether through bits or a map. `add`: to what other lights scattered. Stage "media integrate".
+  // Light scattered towards the eye. `occluders`: a volume's for Runs, Bits and Popcount, a map's for March. In a
+  // heterogeneous medium every integrator marches, through whichever they are. `add`: to what other lights scattered. Stage "media integrate".
   // Several lights: recordTable, barrier, record, barrier, recordTable of the next.
-  void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-              const MediaVisibility& visibility, const MediaLightSource& light, const MediaMethod& method, bool add);
+  void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const Occluders& occluders,
+              const MediaLightSource& light, const MediaMethod& method, bool add);
 
   // The surfaces' own light, attenuated from the light and to the eye; in a heterogeneous medium after
   // record() of the same light, whose table and depths to the eye it reads. `shade` and `visibility`: a
@@ -85,7 +77,7 @@ class MediaPass {
   const gpu::Buffer& radiance() const { return radiance_; }
 
  private:
-  void recordDensity(gpu::Commands& commands, const MediaVisibility& visibility, const MediaLightSource& light,
+  void recordDensity(gpu::Commands& commands, const Occluders& occluders, const MediaLightSource& light,
                      const glsl::MediaPush& push, const gpu::Specialization& instanced,
                      std::vector<gpu::Binding> bindings);
 

@@ -1,6 +1,5 @@
 #include "base/progress.h"
 #include "lab/bench/bench.h"
-#include "lab/core/map_set.h"
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
 #include "truth/visibility.h"
@@ -46,37 +45,31 @@ class Curves {
   int repeats_;
 };
 
-// A scene with one light as one parameterization takes it, and a map to draw.
+constexpr ChannelSet kTwoLayers = glsl::kChannelDepth | glsl::kChannelSecondDepth;
+
+// A light on a map whose stages are timed.
 class Subject {
  public:
   Subject(const Session& session, const Parameterization& kind, int side, const BenchOptions& options)
-      : session_(session),
-        passes_(session.device(), session.view()),
-        exact_(computeExact(session, kind)),
-        maps_(session, passes_.renderers, fitMap(session, kind, exact_, side, options.mapOptions).fitted, exact_,
-              options.cull) {}
+      : passes_(session),
+        lit_(openLight(session, passes_, kind, {.side = side, .options = options.mapOptions, .cull = options.cull})) {}
 
-  double build(MapContent content) { return maps_.redraw(content); }
-  double look(const char* bias) {
-    const Method method = methodFor(session_, {}, findBias(bias));
-    return timeVisibility(session_, passes_, maps_.with(method.bias->content), exact_, method, glsl::kFilterNone);
-  }
+  double build(ChannelSet channels) { return lit_.redraw(channels); }
+  double look(const char* bias) { return lit_.timeVisibility(atDefaults(findBias(bias), lit_.view())); }
   double bits() {
-    gpu::Commands commands(session_.device(), "bits");
-    passes_.renderers.volume.recordBits(commands, *maps_.with(MapContent::OneLayer).volume, Voxelization::Fused);
+    gpu::Commands commands(lit_.view().device(), "bits");
+    asVolume(lit_.occluders()).recordBits(commands, passes_.maps.programs(), Voxelization::Fused);
     return commands.submitAndWait().wallMs;
   }
   double trace() {
     const auto start = std::chrono::steady_clock::now();
-    computeTruth(session_.tracer(), exact_.light, exact_.receivers);
+    computeTruth(lit_.view().tracer(), lit_.light(), lit_.receivers());
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
 
  private:
-  const Session& session_;
-  Passes passes_;
-  Exact exact_;
-  MapSet maps_;
+  ShadowPasses passes_;
+  LightOnMap lit_;
 };
 
 Growth withTriangles(const gpu::DeviceOptions& device, const BenchOptions& options) {
@@ -87,8 +80,8 @@ Growth withTriangles(const gpu::DeviceOptions& device, const BenchOptions& optio
     Subject cube(session, cubeParameterization(), 512, options);
     curves.addPoint(static_cast<double>(triangleCount(session.scene())), fmt::format("{}", count),
                     {{"gbuffer", [&] { return session.timeGBuffer(); }},
-                     {"cube, one layer", [&] { return cube.build(MapContent::OneLayer); }},
-                     {"cube, two layers", [&] { return cube.build(MapContent::TwoLayers); }},
+                     {"cube, one layer", [&] { return cube.build(glsl::kChannelDepth); }},
+                     {"cube, two layers", [&] { return cube.build(kTwoLayers); }},
                      {"visibility, constant", [&] { return cube.look("constant"); }},
                      {"exact shadow", [&] { return cube.trace(); }}});
   }
@@ -103,9 +96,9 @@ Growth withMapSize(const Session& session, const BenchOptions& options) {
     Subject cube(session, cubeParameterization(), static_cast<int>(side), options);
     Subject paraboloid(session, paraboloidParameterization(), paraboloidSide, options);
     curves.addPoint(static_cast<double>(texels), fmt::format("{}", texels),
-                    {{"cube, one layer", [&] { return cube.build(MapContent::OneLayer); }},
-                     {"cube, two layers", [&] { return cube.build(MapContent::TwoLayers); }},
-                     {"paraboloid, one layer", [&] { return paraboloid.build(MapContent::OneLayer); }},
+                    {{"cube, one layer", [&] { return cube.build(glsl::kChannelDepth); }},
+                     {"cube, two layers", [&] { return cube.build(kTwoLayers); }},
+                     {"paraboloid, one layer", [&] { return paraboloid.build(glsl::kChannelDepth); }},
                      {"visibility, cube, constant", [&] { return cube.look("constant"); }},
                      {"visibility, cube, adaptive", [&] { return cube.look("adaptive"); }}});
   }
@@ -134,11 +127,10 @@ Growth withVolumeSize(const Session& session, const BenchOptions& options) {
   for (const VolumeSize& size : {VolumeSize{256, 256, 256}, VolumeSize{512, 512, 256}, VolumeSize{512, 512, 512},
                                  VolumeSize{1024, 1024, 512}, VolumeSize{1024, 1024, 1024}}) {
     BenchOptions sized = options;
-    sized.mapOptions.volumeSize = size;
-    sized.mapOptions.volumeSource = VolumeSource::Direct;
+    sized.mapOptions = options.mapOptions.with(kVolumeSize(size)).with(kVolumeSource(VolumeSource::Direct));
     Subject volume(session, volumeParameterization(), 1024, sized);
     curves.addPoint(static_cast<double>(size.alpha) * size.theta * size.phi, volumeSizeName(size),
-                    {{"volume, all", [&] { return volume.build(MapContent::OneLayer); }},
+                    {{"volume, all", [&] { return volume.build(glsl::kChannelDepth); }},
                      {"volume, bits", [&] { return volume.bits(); }},
                      {"visibility, adaptive", [&] { return volume.look("adaptive"); }}});
   }

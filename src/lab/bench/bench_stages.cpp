@@ -1,10 +1,8 @@
 #include "lab/bench/bench.h"
 
-#include "lab/core/map_set.h"
 #include "lab/core/maps.h"
 #include "lab/fog/fog_view.h"
 #include "omni/cube_map.h"
-#include "omni/paraboloid_map.h"
 #include "truth/visibility.h"
 #include "vsv/volume_parameterization.h"
 
@@ -30,25 +28,32 @@ double millisecondsOf(const std::function<void()>& work) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+// All but the cube, against which the others are told, and the volume, which has stages of its own.
+std::vector<const Parameterization*> otherMaps() {
+  std::vector<const Parameterization*> maps = parameterizations();
+  std::erase_if(maps, [](const Parameterization* map) {
+    return map == &cubeParameterization() || map == &volumeParameterization();
+  });
+  return maps;
+}
+
 }  // namespace
 
-// One light as one parameterization takes it, with one way to draw.
+// A light on a map, by the name of the way it is drawn.
 struct BenchMap {
   std::string name;
-  Exact exact;
-  std::unique_ptr<MapSet> set;
+  LightOnMap lit;
 };
 
 // A medium around it, with a volume and a cube that are fitted to all view rays.
 struct BenchMedium {
-  Exact exact;
   FogView view;
-  DrawnMap volume, cube;
+  LightOnMap volume, cube;
   MediaPass pass;
 };
 
 struct BenchStages::Maps {
-  Passes passes;
+  ShadowPasses passes;
   std::deque<BenchMap> all;  // pointers into it stay
   gpu::Buffer from, to;
   gpu::Image cleared;
@@ -56,7 +61,7 @@ struct BenchStages::Maps {
   std::unique_ptr<BenchMedium> medium;
 
   Maps(const Session& session)
-      : passes(session.device(), session.view()),
+      : passes(session),
         from(session.device(), {.name = "bench from", .size = kCopiedBytes}),
         to(session.device(), {.name = "bench to", .size = kCopiedBytes}),
         cleared(session.device(), {.name = "bench target",
@@ -74,11 +79,9 @@ struct BenchStages::Maps {
     sized.mapOptions = mapOptions;
     const int side =
         &kind == &volumeParameterization() ? mapSideOf(sized, cubeParameterization()) : mapSideOf(sized, kind);
-    all.push_back({.name = name, .exact = computeExact(session, kind), .set = nullptr});
-    BenchMap& map = all.back();
-    map.set = std::make_unique<MapSet>(
-        session, passes.renderers, fitMap(session, kind, map.exact, side, mapOptions).fitted, map.exact, options.cull);
-    return map;
+    all.push_back(
+        {name, openLight(session, passes, kind, {.side = side, .options = mapOptions, .cull = options.cull})});
+    return all.back();
   }
   BenchMap& named(const std::string& name) {
     return *std::ranges::find_if(all, [&](const BenchMap& map) { return map.name == name; });
@@ -125,117 +128,98 @@ void BenchStages::addLimits() {
 
 void BenchStages::addMaps() {
   const auto build = [&](const std::string& name, const Parameterization& kind, const MapOptions& options,
-                         std::initializer_list<MapContent> contents) {
+                         std::initializer_list<ChannelSet> contents) {
     BenchMap& map = maps_->add(session_, options_, kind, name, options);
-    for (const MapContent content : contents)
+    for (const ChannelSet content : contents)
       add(fmt::format("map/{}/{}", name, contentName(content)), kBaseMap,
-          [&map, content] { return map.set->redraw(content); });
+          [&map, content] { return map.lit.redraw(content); });
   };
   const MapOptions& given = options_.mapOptions;
-  const auto all = {MapContent::OneLayer, MapContent::TwoLayers, MapContent::BackFaces};
-  build("cube", cubeParameterization(), given, all);
-  MapOptions other = given;
-  other.cubeDepth = CubeDepth::Radial;
-  build("cube, radial", cubeParameterization(), other, {MapContent::OneLayer});
-  build("paraboloid", paraboloidParameterization(), given, all);
-  for (const ParaboloidRaster raster : {ParaboloidRaster::Vertex, ParaboloidRaster::Tessellated}) {
-    other = given;
-    other.paraboloidRaster = raster;
-    build(fmt::format("paraboloid, {}", paraboloidRasterName(raster)), paraboloidParameterization(), other,
-          {MapContent::OneLayer});
-  }
-  for (const Parameterization* planar : parseMaps("spot,directional")) build(planar->name(), *planar, given, all);
+  const auto buildWithVariants = [&](const Parameterization& kind) {
+    build(kind.name(), kind, given, {glsl::kChannelDepth, glsl::kChannelDepth | glsl::kChannelSecondDepth, glsl::kChannelBackDepth});
+    for (const Parameterization::Variant& variant : kind.variants(given))
+      build(fmt::format("{}, {}", kind.name(), variant.name), kind, variant.options, {glsl::kChannelDepth});
+  };
+  buildWithVariants(cubeParameterization());  // the yardstick
+  for (const Parameterization* kind : otherMaps()) buildWithVariants(*kind);
 }
 
 void BenchStages::addGBufferAndTruth() {
   add("gbuffer", kBaseMap, [this] { return session_.timeGBuffer(); });
-  const BenchMap& cube = maps_->named("cube");
+  const LightOnMap& cube = maps_->named("cube").lit;
   add("truth/exact shadow", kBaseVisibility, [this, &cube] {
-    return millisecondsOf([&] { computeTruth(session_.tracer(), cube.exact.light, cube.exact.receivers); });
+    return millisecondsOf([&] { computeTruth(session_.tracer(), cube.light(), cube.receivers()); });
   });
 }
 
 void BenchStages::addVisibility() {
   const auto look = [&](const std::string& mapName, const char* biasName, const Filter& filter) {
     BenchMap& map = maps_->named(mapName);
-    const BiasMethod& bias = findBias(biasName);
-    const Method method = methodFor(session_, {}, bias);
-    const std::string suffix = filter.id == glsl::kFilterNone ? std::string() : fmt::format(", {}", filter.name);
+    const Method method = atDefaults(findBias(biasName), session_);
+    const std::string suffix = filter.id == glsl::kShadowFilterNone ? std::string() : fmt::format(", {}", filter.name);
     add(fmt::format("visibility/{}/{}{}", mapName, biasName, suffix), kBaseVisibility,
-        [this, &map, method, id = filter.id] {
-          return timeVisibility(session_, maps_->passes, map.set->with(method.bias->content), map.exact, method, id);
-        });
+        [&map, method, id = filter.id] { return map.lit.timeVisibility(method, id); });
   };
   look("cube", "constant", filters().front());
   for (const BiasMethod& bias : biasMethods())
     if (std::string_view(bias.name) != "constant") look("cube", bias.name, filters().front());
   for (const char* bias : {"constant", "adaptive", "dual"})
     for (size_t i = 1; i < filters().size(); ++i) look("cube", bias, filters()[i]);
-  for (const char* map : {"paraboloid", "spot", "directional"})
-    for (const char* bias : {"constant", "adaptive", "dual"}) look(map, bias, filters().front());
+  for (const Parameterization* map : otherMaps())
+    for (const char* bias : {"constant", "adaptive", "dual"}) look(map->name(), bias, filters().front());
 }
 
 void BenchStages::addVolumes() {
   const gpu::Device& device = session_.device();
   const std::string copy = "volume/copy of its bits";
   for (const VolumeSource source : {VolumeSource::Direct, VolumeSource::Resample}) {
-    MapOptions options = options_.mapOptions;
-    options.volumeSource = source;
-    const std::string name = fmt::format("vsv, {}", volumeSourceName(source));
+    const MapOptions options = options_.mapOptions.with(kVolumeSource(source));
+    const std::string name = fmt::format("vsv, {}", kVolumeSource.text(source));
     BenchMap& map = maps_->add(session_, options_, volumeParameterization(), name, options);
-    add(fmt::format("volume/{}/all", volumeSourceName(source)), kBaseMap,
-        [&map] { return map.set->redraw(MapContent::OneLayer); });
+    add(fmt::format("volume/{}/all", kVolumeSource.text(source)), kBaseMap, [&map] { return map.lit.redraw(); });
     if (source == VolumeSource::Direct) {
-      const ShadowVolume& volume = *map.set->with(MapContent::OneLayer).volume;
-      auto to =
-          std::make_shared<gpu::Buffer>(device, gpu::BufferDesc{.name = "bench volume", .size = volume.bits().size()});
-      add(copy, "limit/device copy 64 MiB", [&device, &volume, to] {
+      const ShadowVolume& volume = asVolume(map.lit.occluders());
+      const gpu::Buffer& bits = *volume.bits();
+      auto to = std::make_shared<gpu::Buffer>(device, gpu::BufferDesc{.name = "bench volume", .size = bits.size()});
+      add(copy, "limit/device copy 64 MiB", [&device, &bits, to] {
         gpu::Commands commands(device, "copy");
-        commands.copy(volume.bits(), *to, volume.bits().size());
+        commands.copy(bits, *to, bits.size());
         return commands.submitAndWait().wallMs;
       });
       for (const Voxelization how : {Voxelization::Fused, Voxelization::Passes})
         add(how == Voxelization::Fused ? "volume/bits, one pass" : "volume/bits, clear + seed + scan", copy,
             [this, &device, &volume, how] {
               gpu::Commands commands(device, "bits");
-              maps_->passes.renderers.volume.recordBits(commands, volume, how);
+              volume.recordBits(commands, maps_->passes.maps.programs(), how);
               return commands.submitAndWait().wallMs;
             });
     }
     for (const char* biasName : {"none", "constant", "adaptive"}) {
-      const Method method = methodFor(session_, {}, findBias(biasName));
+      const Method method = atDefaults(findBias(biasName), session_);
       if (source == VolumeSource::Direct)
-        add(fmt::format("visibility/vsv/{}", biasName), kBaseVisibility, [this, &map, method] {
-          return timeVisibility(session_, maps_->passes, map.set->with(MapContent::OneLayer), map.exact, method,
-                                glsl::kFilterNone);
-        });
+        add(fmt::format("visibility/vsv/{}", biasName), kBaseVisibility,
+            [&map, method] { return map.lit.timeVisibility(method); });
     }
   }
 }
 
 void BenchStages::addMedia() {
-  const Exact& exact = maps_->named("cube").exact;
-  FogView view = lookIntoFog(session_, maps_->passes, {exact.source}, {});
-  const auto draw = [&](const Parameterization& kind) {
-    const FittedMap fitted = kind.fit({.scene = session_.scene(),
-                                       .light = exact.light,
-                                       .receiversW = view.receiversW,
-                                       .camera = session_.view(),
-                                       .options = options_.mapOptions});
-    return drawMap(session_, maps_->passes.renderers, fitted, exact, MapContent::OneLayer, options_.cull);
+  const Light& source = maps_->named("cube").lit.source();
+  FogView view = lookIntoFog(session_, maps_->passes, {source}, {});
+  const MapSetup setup{.options = options_.mapOptions, .cull = options_.cull, .receiversW = view.receiversW};
+  const auto mapped = [&](const Parameterization& kind) {
+    return LightOnMap(session_, maps_->passes, kind, source, setup);
   };
-  DrawnMap volume = draw(volumeParameterization()), cube = draw(cubeParameterization());
-  maps_->medium.reset(new BenchMedium{exact, std::move(view), std::move(volume), std::move(cube),
+  maps_->medium.reset(new BenchMedium{std::move(view), mapped(volumeParameterization()), mapped(cubeParameterization()),
                                       MediaPass(session_.device(), session_.view().width, session_.view().height)});
   BenchMedium& medium = *maps_->medium;
   medium.pass.setMedium(session_.view(), medium.view.medium);
   const auto integrate = [&](std::string name, const char* base, const MediaMethod& method) {
     add(std::move(name), base, [this, &medium, method] {
-      const MediaVisibility visibility = method.integrator == Integrator::March
-                                             ? MediaVisibility(*medium.cube.image)
-                                             : MediaVisibility(*medium.volume.volume);
+      LightOnMap& lit = method.integrator == Integrator::March ? medium.cube : medium.volume;
+      const Occluders& occluders = lit.occluders();
       gpu::Commands commands(session_.device(), "media");
-      medium.pass.record(commands, session_.buffers(), session_.gbuffer(), visibility, medium.view.sources.front(),
+      medium.pass.record(commands, session_.buffers(), session_.gbuffer(), occluders, medium.view.sources.front(),
                          method, false);
       return commands.submitAndWait().wallMs;
     });
@@ -245,8 +229,9 @@ void BenchStages::addMedia() {
   for (const int steps : {128, 512})
     integrate(fmt::format("media/march {} steps", steps), kBase, {.integrator = Integrator::March, .steps = steps});
   add("media/table of the running integral", kBase, [this, &medium] {
+    const Occluders& occluders = medium.volume.occluders();
     gpu::Commands commands(session_.device(), "media table");
-    medium.pass.recordTable(commands, *medium.volume.volume, medium.view.sources.front());
+    medium.pass.recordTable(commands, occluders, medium.view.sources.front());
     return commands.submitAndWait().wallMs;
   });
   for (const Integrator integrator : {Integrator::Runs, Integrator::Bits, Integrator::Popcount})

@@ -2,17 +2,19 @@
 
 #include "base/error.h"
 #include "base/progress.h"
-#include "judge/filtered_truth.h"
+#include "lab/compare/compare_command.h"
 #include "lab/compare/robustness.h"
 #include "lab/compare/row_pictures.h"
 #include "lab/compare/tune.h"
 #include "lab/core/depth_images.h"
 #include "lab/core/map_params.h"
+#include "lab/core/results_head.h"
 #include "lab/picture/flip.h"
 #include "lab/picture/pictures.h"
+#include "lab/picture/unfold.h"
+#include "vsv/shadow_volume.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -23,19 +25,17 @@ namespace gnomon {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-TruthSummary summarize(const Parameterization& map, const Exact& exact) {
+TruthSummary summarize(const Parameterization& map, const GroundTruth& exact) {
   return {.map = map.name(),
-          .lightName = exact.source.name,
-          .light = exact.light,
+          .light = lightFacts(exact.source.name, exact.light),
           .scored = exact.receivers.scored,
+          .lit = exact.truth.litCount,
           .facingAway = exact.receivers.facingAway,
           .outsideCone = exact.receivers.outsideCone,
-          .lit = exact.truth.litCount,
+          .margin = exact.truth.margin,
           .marginFlipsHalf = exact.truth.marginFlipsHalf,
           .marginFlipsDouble = exact.truth.marginFlipsDouble,
-          .margin = exact.truth.margin};
+          .receiversAndTraceMs = exact.ms};
 }
 
 // A row before it is judged.
@@ -45,16 +45,31 @@ struct Entry {
   size_t row = 0;  // the first of its rows, one a filter
 };
 
-void describe(Row& row, const Entry& entry, const Judged& judged) {
+std::string filterKnobName(const Knob& knob) {
+  return fmt::format("filter_{}", knob.name);
+}
+
+// Knobs, then what the map holds and how it is drawn and fitted.
+Params paramsOf(const Method& method, const Filter& filter, const Parameterization& map, const FittedMap& fitted,
+                const CompareOptions& choice) {
+  const BiasMethod& bias = *method.bias;
+  Params params;
+  for (const Knob& knob : knobsOf(bias)) params.push_back({knob.name, shortest(valueOf(method.params, bias, knob))});
+  const ChosenFilter chosen = filterFor(choice, filter);
+  for (size_t i = 0; i < filter.knobs.size(); ++i)
+    params.push_back({filterKnobName(filter.knobs[i]), shortest(chosen.params.knobs[i])});
+  if (bias.takesEpsilonAt) params.push_back({"epsilon_at", epsilonAtName(method.params.epsilonAt)});
+  params.push_back({"map_content", contentName(bias.channels)});
+  params.push_back({"cull", cullModeName(choice.cull)});
+  for (const Param& param : mapParams(map, fitted, choice.mapOptions)) params.push_back(param);
+  return params;
+}
+
+void describe(Row& row, const Entry& entry, const LabelledResult& judged) {
   const BiasMethod& bias = *entry.method.bias;
   row.bias = bias.name;
   row.tuning = entry.tuning;
-  for (const BiasKnob& knob : knobsOf(bias)) {
-    row.knobs.emplace_back(knob.name, static_cast<double>(entry.method.params.*knob.field));
-    row.knobUnits.emplace_back(unitName(knob.unit));
-  }
-  row.content = contentName(bias.content);
-  if (bias.hasEpsilon) row.epsilonAt = epsilonAtName(entry.method.params.epsilonAt);
+  for (const Knob& knob : knobsOf(bias)) row.units.emplace_back(knob.name, unitName(knob.unit));
   const LabelImage& labels = judged.labels;
   row.agree = labels.count(Label::Agree);
   row.acne = labels.count(Label::Acne);
@@ -67,45 +82,38 @@ void describe(Row& row, const Entry& entry, const Judged& judged) {
   row.edgeOn = judged.edgeOn.size();
 }
 
-double rmseOf(const Exact& exact, std::span<const float> visibility, std::span<const float> truth) {
+double rmseOf(const Receivers& receivers, std::span<const float> visibility, std::span<const float> truth) {
   double sum = 0.0;
   for (size_t i = 0; i < truth.size(); ++i) {
-    if (exact.receivers.states[i] != PixelState::Scored) continue;
+    if (receivers.states[i] != PixelState::Scored) continue;
     const double difference = static_cast<double>(visibility[i]) - static_cast<double>(truth[i]);
     sum += difference * difference;
   }
-  return std::sqrt(sum / static_cast<double>(exact.receivers.scored));
+  return std::sqrt(sum / static_cast<double>(receivers.scored));
 }
 
 // Everything of one map: its rows, its summary, its pictures.
 class MapComparison {
  public:
-  MapComparison(const Session& session, const CompareOptions& options, Passes& passes,
+  MapComparison(const Session& session, const CompareOptions& options, ShadowPasses& passes,
                 const Parameterization& parameterization, const Light& source, std::string folder, Progress& progress)
-      : session_(session),
-        options_(options),
-        passes_(passes),
+      : options_(options),
         parameterization_(parameterization),
-        source_(source),
+        lit_(session, passes, parameterization, source, mapSetupOf(options, parameterization)),
         folder_(std::move(folder)),
         progress_(progress) {}
 
   // False where the camera sees nothing that faces the light.
   bool run(Comparison& comparison) {
     step("exact shadow");
-    const Clock::time_point start = Clock::now();
-    exact_ = computeExact(session_, parameterization_, source_);
-    if (exact_.receivers.scored == 0) return false;
-    TruthSummary summary = summarize(parameterization_, exact_);
-    summary.receiversAndTraceMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    if (lit_.receivers().scored == 0) return false;
+    TruthSummary summary = summarize(parameterization_, lit_.groundTruth());
     step("map");
-    const Fit fit =
-        fitMap(session_, parameterization_, exact_, mapSideOf(options_, parameterization_), options_.mapOptions);
-    summary.zNear = fit.fitted.zNear;
-    summary.zFar = fit.fitted.zFar;
-    summary.fitNote = fit.fitted.note;
-    summary.fitMs = fit.ms;
-    maps_ = std::make_unique<MapSet>(session_, passes_.renderers, fit.fitted, exact_, options_.cull);
+    const FittedMap& fitted = lit_.fitted();
+    summary.zNear = fitted.zNear;
+    summary.zFar = fitted.zFar;
+    summary.fitNote = fitted.note;
+    summary.fitMs = lit_.fitMs();
     for (const Filter* filter : options_.filters) filteredTruth(*filter);
 
     std::vector<Entry> entries = chooseEntries();
@@ -116,7 +124,7 @@ class MapComparison {
     }
     timeRows(entries);
     comparison.truths.push_back(summary);
-    comparison.maps.push_back(summarizeMap(fit.fitted));
+    comparison.maps.push_back(summarizeMap(fitted));
     comparison.rows.insert(comparison.rows.end(), rows_.begin(), rows_.end());
     return true;
   }
@@ -128,63 +136,62 @@ class MapComparison {
     const auto found = truths_.find(filter.id);
     if (found != truths_.end()) return found->second;
     FilteredTruth truth;
-    truth.visibility = computeFilteredTruth(session_.tracer(), exact_.light, exact_.receivers, exact_.truth,
-                                            maps_->fitted(), filter.id);
-    truth.beauty = toSrgb8(renderRadiance(session_, passes_, exact_, truth.visibility));
+    truth.visibility = lit_.filteredTruth(filterFor(options_, filter));
+    truth.beauty = toSrgb8(lit_.radiance(truth.visibility));
     return truths_.emplace(filter.id, std::move(truth)).first->second;
   }
 
   // Each bias at the options' knobs, and where a search is wanted once more at its best.
   std::vector<Entry> chooseEntries() {
     std::vector<Entry> entries;
-    for (const BiasMethod* bias : options_.biases) entries.push_back({.method = methodFor(session_, options_, *bias)});
+    for (const BiasMethod* bias : options_.biases)
+      entries.push_back({.method = methodFor(lit_.view(), options_, *bias)});
     if (!options_.tune) return entries;
     std::optional<Robustness> robustness;
-    if (options_.tuneElsewhere) robustness.emplace(session_, exact_, options_, parameterization_);
-    Trial trial(session_, passes_, exact_, *maps_);
+    if (options_.tuneElsewhere) robustness.emplace(lit_, options_);
+    TuningEvaluator evaluator(lit_);
     const size_t count = entries.size();
     for (size_t i = 0; i < count; ++i) {
       if (knobsOf(*entries[i].method.bias).empty()) continue;
       step(fmt::format("{}, searching its best knob", entries[i].method.bias->name));
-      const TunedMethod tuned = tune(trial, entries[i].method);
+      const TunedMethod tuned = tune(evaluator, entries[i].method);
       entries.push_back({.method = tuned.method, .tuning = robustness ? robustness->judge(tuned) : tuningOf(tuned)});
     }
     return entries;
   }
 
   void judgeEntry(const Entry& entry) {
-    const DrawnMap& map = maps_->with(entry.method.bias->content);
-    const Judged judged = judge(session_, passes_, map, exact_, entry.method);
+    const LabelledResult judged = lit_.judge(entry.method);
+    const FittedMap& fitted = lit_.fitted();
     for (const Filter* filter : options_.filters) {
       const FilteredTruth& truth = filteredTruth(*filter);
-      std::vector<float> visibility =
-          filter->id == glsl::kFilterNone
-              ? judged.visibility
-              : gnomon::filteredVisibility(session_, passes_, map, exact_, entry.method, filter->id);
+      std::vector<float> visibility = filter->id == glsl::kShadowFilterNone
+                                          ? judged.visibility
+                                          : lit_.visibility(entry.method, filterFor(options_, *filter));
       for (const size_t pixel : judged.edgeOn) visibility[pixel] = truth.visibility[pixel];
       Row row;
       row.map = parameterization_.name();
-      row.light = source_.name;
-      row.mapSide = map.fitted.map.side;
-      row.mapRows = map.fitted.map.rows;
-      row.mapSize = mapSizeText(map.fitted);
-      row.mapParams = mapParams(map.fitted, options_.mapOptions);
-      row.layers = map.fitted.map.layerCount;
-      row.cull = cullModeName(options_.cull);
-      row.mapOptions = options_.mapOptions;
+      row.light = lit_.source().name;
+      row.mapSide = fitted.map.side;
+      row.layers = fitted.map.layerCount;
+      row.mapTexels = size_t{1} * fitted.map.side * fitted.map.rows * fitted.map.layerCount;
+      row.mapDimensions = mapSizeText(fitted);
+      row.params = paramsOf(entry.method, *filter, parameterization_, fitted, options_);
       row.filter = filter->name;
       describe(row, entry, judged);
-      row.rmse = rmseOf(exact_, visibility, truth.visibility);
-      const int width = exact_.receivers.width, height = exact_.receivers.height;
+      for (const Knob& knob : filter->knobs) row.units.emplace_back(filterKnobName(knob), unitName(knob.unit));
+      row.rmse = rmseOf(lit_.receivers(), visibility, truth.visibility);
+      const int width = lit_.receivers().width, height = lit_.receivers().height;
       row.worstAcne = findWorstPlace(judged.labels, width, height, Label::Acne);
       row.worstLeak = findWorstPlace(judged.labels, width, height, Label::Leak);
       // Half a second a row at 1024 x 1024: what binary results have labels for.
-      const bool flips = options_.filters.size() > 1 || filter->id != glsl::kFilterNone;
+      const bool flips = options_.filters.size() > 1 || filter->id != glsl::kShadowFilterNone;
       Image8 beauty;
-      if (flips || !options_.outDir.empty()) beauty = toSrgb8(renderRadiance(session_, passes_, exact_, visibility));
+      if (flips || !options_.outDir.empty()) beauty = toSrgb8(lit_.radiance(visibility));
       if (flips) row.flip = computeFlip(truth.beauty, beauty).mean;
       if (!options_.outDir.empty())
-        row.pictures = writeRowPictures(exact_, judged, visibility, beauty, truth, namesOf(row), options_.outDir);
+        row.pictures =
+            writeRowPictures(lit_.groundTruth(), judged, visibility, beauty, truth, namesOf(row), options_.outDir);
       rows_.push_back(std::move(row));
     }
   }
@@ -193,8 +200,8 @@ class MapComparison {
     RowPictureNames names;
     names.labelStem = fmt::format("{}/{}{}", folder_, row.bias, row.tuning ? ".tuned" : "");
     names.stem = names.labelStem + (row.filter == "none" ? "" : "." + row.filter);
-    names.title =
-        fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "", row.mapSide, row.mapRows);
+    names.title = fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "", row.mapSide,
+                              lit_.fitted().map.rows);
     names.writesLabels = row.filter == options_.filters.front()->name;
     return names;
   }
@@ -203,26 +210,25 @@ class MapComparison {
   // tuned row costs what its untuned one costs.
   void timeRows(const std::vector<Entry>& entries) {
     const size_t filterCount = options_.filters.size();
-    std::map<MapContent, std::vector<double>> build;
+    std::map<ChannelSet, std::vector<double>> build;
     std::vector<std::vector<double>> shade(options_.biases.size() * filterCount);
     for (int round = -1; round < options_.repeats; ++round) {  // round -1 warms up: pipelines compile at first use
       step(round < 0 ? "timing, warm-up" : fmt::format("timing, {} of {}", round + 1, options_.repeats));
-      std::map<MapContent, double> drawn;
+      std::map<ChannelSet, double> drawn;
       for (const BiasMethod* bias : options_.biases)
-        if (!drawn.contains(bias->content)) drawn[bias->content] = maps_->redraw(bias->content);
+        if (!drawn.contains(bias->channels)) drawn[bias->channels] = lit_.redraw(bias->channels);
       if (round >= 0)
-        for (const auto& [content, ms] : drawn) build[content].push_back(ms);
+        for (const auto& [channels, ms] : drawn) build[channels].push_back(ms);
       for (size_t i = 0; i < shade.size(); ++i) {
         const Method& method = entries[i / filterCount].method;
-        const double ms = timeVisibility(session_, passes_, maps_->with(method.bias->content), exact_, method,
-                                         options_.filters[i % filterCount]->id);
+        const double ms = lit_.timeVisibility(method, filterFor(options_, *options_.filters[i % filterCount]));
         if (round >= 0) shade[i].push_back(ms);
       }
     }
     for (const Entry& entry : entries) {
       const auto like = std::ranges::find(options_.biases, entry.method.bias) - options_.biases.begin();
       for (size_t f = 0; f < filterCount; ++f) {
-        rows_[entry.row + f].buildMs = median(build[entry.method.bias->content]);
+        rows_[entry.row + f].buildMs = median(build[entry.method.bias->channels]);
         rows_[entry.row + f].shadeMs = median(shade[static_cast<size_t>(like) * filterCount + f]);
       }
     }
@@ -230,36 +236,33 @@ class MapComparison {
 
   MapSummary summarizeMap(const FittedMap& fitted) {
     MapSummary summary{.map = parameterization_.name(),
-                       .light = source_.name,
+                       .light = lit_.source().name,
                        .side = fitted.map.side,
                        .rows = fitted.map.rows,
                        .layers = fitted.map.layerCount,
                        .zNear = fitted.zNear,
-                       .zFar = fitted.zFar,
-                       .solidAngles = computeSolidAngles(fitted)};
+                       .zFar = fitted.zFar};
+    if (const std::optional<SolidAngles> angles = computeSolidAngles(fitted))
+      summary.solidAngles = {.smallest = angles->smallest, .largest = angles->largest};
     if (options_.outDir.empty()) return summary;
-    const bool two =
-        std::ranges::any_of(options_.biases, [](const BiasMethod* b) { return b->content == MapContent::TwoLayers; });
-    const DrawnMap& map = maps_->with(two ? MapContent::TwoLayers : MapContent::OneLayer);
+    const bool two = std::ranges::any_of(
+        options_.biases, [](const BiasMethod* b) { return (b->channels & glsl::kChannelSecondDepth) != 0; });
+    const Occluders& drawn = lit_.occluders(glsl::kChannelDepth | (two ? glsl::kChannelSecondDepth : 0));
     const FilteredTruth& plain = filteredTruth(filters().front());
-    summary.pictures = writeMapPictures(session_, exact_, map, plain, options_.outDir, folder_);
+    summary.pictures = writeMapPictures(lit_.view().device(), lit_.receivers(), drawn, plain, options_.outDir, folder_);
     for (const Filter* filter : options_.filters)
-      if (filter->id != glsl::kFilterNone)
-        summary.filteredTruths.emplace_back(filter->name,
-                                            writeFilteredTruth(exact_, filteredTruth(*filter), options_.outDir,
-                                                               fmt::format("{}/truth.{}", folder_, filter->name)));
+      if (filter->id != glsl::kShadowFilterNone)
+        summary.filteredTruths.emplace_back(
+            filter->name, writeFilteredTruth(lit_.receivers(), filteredTruth(*filter), options_.outDir,
+                                             fmt::format("{}/truth.{}", folder_, filter->name)));
     return summary;
   }
 
-  const Session& session_;
   const CompareOptions& options_;
-  Passes& passes_;
   const Parameterization& parameterization_;
-  const Light source_;
+  LightOnMap lit_;
   const std::string folder_;  // below outDir
   Progress& progress_;
-  Exact exact_;
-  std::unique_ptr<MapSet> maps_;
   std::map<int, FilteredTruth> truths_;  // by filter
   std::vector<Row> rows_;
 };
@@ -282,7 +285,10 @@ void addSums(Comparison& comparison) {
       sum.pictures.clear();
       sum.worstAcne = sum.worstLeak = std::nullopt;
       sum.flip = std::nullopt;
-      if (sum.tuning) sum.knobs = {}, sum.knobUnits = {};  // each light has its own
+      if (sum.tuning) {  // each light has its own
+        std::erase_if(sum.params, [&](const Param& param) { return sum.isKnob(param); });
+        sum.units.clear();
+      }
       continue;
     }
     const double squares = found->rmse * found->rmse * static_cast<double>(found->scored) +
@@ -307,9 +313,9 @@ int stepsPerMap(const CompareOptions& options) {
 
 CompareOptions optionsFor(const CompareOptions& options, const Parameterization& map) {
   CompareOptions own = options;
-  std::erase_if(own.biases, [&](const BiasMethod* bias) { return !map.answers(*bias); });
+  std::erase_if(own.biases, [&](const BiasMethod* bias) { return !map.supportsBias(*bias); });
   std::erase_if(own.filters,
-                [&](const Filter* filter) { return filter->id != glsl::kFilterNone && !map.takesFilters(); });
+                [&](const Filter* filter) { return filter->id != glsl::kShadowFilterNone && !map.supportsFilters(); });
   return own;
 }
 
@@ -325,7 +331,7 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   for (int i = 0; i < options.repeats; ++i) gbuffer.push_back(session.timeGBuffer());
   comparison.gbufferMs = median(gbuffer);
 
-  Passes passes(session.device(), session.view());
+  ShadowPasses passes(session);
   struct Job {
     const Parameterization* map;
     Light light;
@@ -345,8 +351,12 @@ Comparison compare(const Session& session, const CompareOptions& options) {
     const std::string folder = severalLights ? fmt::format("{}/light{}", map->name(), number) : map->name();
     MapComparison(session, own, passes, *map, light, folder, progress).run(comparison);
   }
-  if (comparison.rows.empty()) computeExact(session, *options.maps.front());  // says why
+  if (comparison.rows.empty()) openLight(session, passes, *options.maps.front(), {});  // says why
   if (severalLights) addSums(comparison);
+  for (Row& row : comparison.rows) {
+    row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
+    row.command = rowCommand(session.setup(), options, row);
+  }
   return comparison;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// results.json, the schema that docs/results.md describes and a test holds.
+// results.json of a comparison (docs/results.md).
 
 #include "lab/compare/compare.h"
 
@@ -8,7 +8,6 @@
 namespace gnomon {
 
 // The whole file as text. `command` is the line that makes it again.
-std::string resultsJson(const Session& session, const SetupOptions& setup, const Comparison& comparison,
-                        const std::string& command);
+std::string resultsJson(const Session& session, const Comparison& comparison, const std::string& command);
 
 }  // namespace gnomon

@@ -10,15 +10,14 @@ namespace gnomon {
 // The camera carried round the point that the picture's centre shows, by kOrbitDegrees about the vertical, as
 // far as nothing stands in the way.
 inline constexpr double kOrbitDegrees = 25.0;
-Camera orbitedCamera(const Session& session);
+Camera orbitedCamera(const SceneView& view);
 
 // What was tuned, and not yet how good it is elsewhere.
 Tuning tuningOf(const TunedMethod& tuned);
 
 class Robustness {
  public:
-  Robustness(const Session& session, const Exact& exact, const CompareOptions& options,
-             const Parameterization& parameterization);
+  Robustness(const LightOnMap& tuned, const CompareOptions& options);
   ~Robustness();
 
   // The tuned value there, and the best one there. Where the other camera sees nothing that faces the light,
@@ -27,9 +26,9 @@ class Robustness {
 
  private:
   struct Place;
-  Elsewhere judgeAt(Place& place, const TunedMethod& tuned);
+  Transfer judgeAt(Place& place, const TunedMethod& tuned);
 
-  std::unique_ptr<Session> otherSession_;
+  SceneView otherView_;
   std::unique_ptr<Place> otherCamera_, otherMapSize_;
 };
 

@@ -1,8 +1,8 @@
 #include "lab/compare/row_pictures.h"
 
 #include "lab/core/depth_images.h"
-
 #include "lab/picture/pictures.h"
+#include "lab/picture/unfold.h"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 // EXR for data: the visibility predicted and true, and the label's number (Label in truth/labels.h).
-ImageF dataImage(const Exact& exact, const Judged& judged, std::span<const float> visibility,
+ImageF dataImage(const GroundTruth& exact, const LabelledResult& judged, std::span<const float> visibility,
                  std::span<const float> truth) {
   ImageF image(exact.receivers.width, exact.receivers.height, 3);
   for (size_t i = 0; i < truth.size(); ++i) {
@@ -24,8 +24,9 @@ ImageF dataImage(const Exact& exact, const Judged& judged, std::span<const float
 
 }  // namespace
 
-Pictures writeMapPictures(const Session& session, const Exact& exact, const DrawnMap& map, const FilteredTruth& truth,
-                          const std::filesystem::path& outDir, const std::string& mapName) {
+Pictures writeMapPictures(const gpu::Device& device, const Receivers& receivers, const Occluders& occluders,
+                          const FilteredTruth& truth, const std::filesystem::path& outDir, const std::string& mapName) {
+  const glsl::ShadowMap& map = occluders.fitted().map;
   Pictures pictures;
   const auto writeDepth = [&](const char* name, const ImageF& metres) {
     const std::string stem = mapName + "/" + name;
@@ -33,29 +34,29 @@ Pictures writeMapPictures(const Session& session, const Exact& exact, const Draw
     writeExr(outDir / (stem + ".exr"), metres, {"metres"});
     pictures.emplace_back(name, stem + ".png");
   };
-  const DepthImages depth = depthInMetres(session, map);
+  const DepthImages depth = depthInMetres(device, occluders);
   writeDepth("depth", depth.first);
-  if (map.fitted.map.layerCount > 1) {
+  if (map.layerCount > 1) {
     const std::string path = mapName + "/unfolded.png";
-    writePng(outDir / path, unfoldedPicture(depthPicture(depth.first), map.fitted.map, {64, 48, 64}));
+    writePng(outDir / path, unfoldedPicture(depthPicture(depth.first), occluders.fitted(), {64, 48, 64}));
     pictures.emplace_back("unfolded", path);
   }
   if (depth.second) writeDepth("second_depth", *depth.second);
   if (depth.gap) writeDepth("layer_gap", *depth.gap);
-  const Pictures truths = writeFilteredTruth(exact, truth, outDir, mapName + "/truth");
+  const Pictures truths = writeFilteredTruth(receivers, truth, outDir, mapName + "/truth");
   pictures.emplace_back("truth", truths[0].second);
   pictures.emplace_back("truth_beauty", truths[1].second);
   return pictures;
 }
 
-Pictures writeFilteredTruth(const Exact& exact, const FilteredTruth& truth, const std::filesystem::path& outDir,
+Pictures writeFilteredTruth(const Receivers& receivers, const FilteredTruth& truth, const std::filesystem::path& outDir,
                             const std::string& stem) {
-  writePng(outDir / (stem + ".png"), visibilityPicture(exact.receivers, truth.visibility));
+  writePng(outDir / (stem + ".png"), visibilityPicture(receivers, truth.visibility));
   writePng(outDir / (stem + ".beauty.png"), truth.beauty);
   return {{"visibility", stem + ".png"}, {"beauty", stem + ".beauty.png"}};
 }
 
-Pictures writeRowPictures(const Exact& exact, const Judged& judged, std::span<const float> visibility,
+Pictures writeRowPictures(const GroundTruth& exact, const LabelledResult& judged, std::span<const float> visibility,
                           const Image8& beauty, const FilteredTruth& truth, const RowPictureNames& names,
                           const std::filesystem::path& outDir) {
   const std::string& stem = names.stem;
@@ -83,7 +84,7 @@ std::optional<WorstPlace> findWorstPlace(const LabelImage& labels, int width, in
       sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + sums[(y + 1) * stride + x] - sums[y * stride + x] +
                                        (labels.labels[y * (stride - 1) + x] == label ? 1 : 0);
   const int size = std::min({kWorstSide, width, height});
-  WorstPlace worst{.size = size};
+  WorstPlace worst{.size = size, .pixels = 0};
   for (int y = 0; y + size <= height; ++y) {
     for (int x = 0; x + size <= width; ++x) {
       const auto at = [&](int column, int row) { return sums[static_cast<size_t>(row) * stride + column]; };

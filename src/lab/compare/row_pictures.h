@@ -2,7 +2,6 @@
 // The pictures of a comparison, written below its folder.
 
 #include "lab/compare/compare.h"
-#include "lab/core/map_set.h"
 
 namespace gnomon {
 
@@ -13,10 +12,10 @@ struct FilteredTruth {
 };
 
 // Depth, second depth and gap where the map has two layers, and the truth.
-Pictures writeMapPictures(const Session& session, const Exact& exact, const DrawnMap& map, const FilteredTruth& truth,
-                          const std::filesystem::path& outDir, const std::string& mapName);
+Pictures writeMapPictures(const gpu::Device& device, const Receivers& receivers, const Occluders& occluders,
+                          const FilteredTruth& truth, const std::filesystem::path& outDir, const std::string& mapName);
 
-Pictures writeFilteredTruth(const Exact& exact, const FilteredTruth& truth, const std::filesystem::path& outDir,
+Pictures writeFilteredTruth(const Receivers& receivers, const FilteredTruth& truth, const std::filesystem::path& outDir,
                             const std::string& stem);
 
 struct RowPictureNames {
@@ -25,7 +24,7 @@ struct RowPictureNames {
   std::string title;
   bool writesLabels = true;
 };
-Pictures writeRowPictures(const Exact& exact, const Judged& judged, std::span<const float> visibility,
+Pictures writeRowPictures(const GroundTruth& exact, const LabelledResult& judged, std::span<const float> visibility,
                           const Image8& beauty, const FilteredTruth& truth, const RowPictureNames& names,
                           const std::filesystem::path& outDir);
 

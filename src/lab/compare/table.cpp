@@ -1,7 +1,6 @@
 #include "lab/compare/table.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -9,15 +8,13 @@ namespace gnomon {
 
 namespace {
 
-size_t wrongPixels(const Row& row) {
-  return row.scored - row.agree;
-}
-
 std::string knobText(const Row& row) {
   std::string text;
-  for (size_t i = 0; i < row.knobs.size(); ++i) {
-    const std::string unit = row.knobUnits[i].empty() ? "" : " " + row.knobUnits[i];
-    text += fmt::format("{}{} {:.4g}{}", i == 0 ? "" : ", ", row.knobs[i].first, row.knobs[i].second, unit);
+  for (const Param& param : row.params) {
+    if (!row.isKnob(param)) continue;
+    const std::string unit = row.unitOf(param.name);
+    text += fmt::format("{}{} {:.4g}{}{}", text.empty() ? "" : ", ", param.name, std::get<double>(param.value),
+                        unit.empty() ? "" : " ", unit);
   }
   return text;
 }
@@ -32,7 +29,7 @@ bool hasSums(const Comparison& comparison) {
 
 // "cube 1024", and the light where there are several.
 std::string mapText(const Comparison& comparison, const Row& row) {
-  return fmt::format("{} {}{}", row.map, row.mapSize, hasSums(comparison) ? ", " + row.light : "");
+  return fmt::format("{} {}{}", row.map, row.mapDimensions, hasSums(comparison) ? ", " + row.light : "");
 }
 
 // The row of a bias on a map (of all lights together), unfiltered counts being the same for all filters.
@@ -72,29 +69,21 @@ std::string factorLines(const Comparison& comparison) {
 
 }  // namespace
 
-std::vector<Row> ranked(std::vector<Row> rows) {
-  std::ranges::stable_sort(rows, {}, [](const Row& row) { return std::tuple(row.biasError(), wrongPixels(row)); });
-  return rows;
-}
-
 std::string comparisonTable(const Comparison& comparison) {
   size_t knobWidth = 5, mapWidth = 16;
   for (const Row& row : comparison.rows) {
     knobWidth = std::max(knobWidth, knobText(row).size());
     mapWidth = std::max(mapWidth, mapText(comparison, row).size());
   }
-  std::string text =
-      fmt::format("{:<{}} {:<25} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>7} {:>7} {:>9} {:>9}\n",
-                  "map", mapWidth, "bias", "filter", "knobs", knobWidth, "agree", "acne", "leak", "edge_sh", "edge_li",
-                  "uncovered", "bias error", "rmse", "flip", "build ms", "shade ms");
+  const DeclaredColumns<Row> columns(comparison.rows);
+  const auto line = [&](const std::string& map, const std::string& bias, const std::string& filter,
+                        const std::string& knobs, const std::string& numbers) {
+    return fmt::format("{:<{}} {:<25} {:<9} {:<{}}{}\n", map, mapWidth, bias, filter, knobs, knobWidth, numbers);
+  };
+  std::string text = line("map", "bias", "filter", "knobs", columns.head());
   for (const Row& row : ranked(comparison.rows)) {
     if (row.isSum != hasSums(comparison)) continue;  // of several lights their sums; each is in the report
-    text += fmt::format(
-        "{:<{}} {:<25} {:<9} {:<{}} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9.4f}% {:>7.4f} {:>7} {:>9.2f} "
-        "{:>9.2f}\n",
-        mapText(comparison, row), mapWidth, biasText(row), row.filter, knobText(row), knobWidth, row.agree, row.acne,
-        row.leak, row.edgeShadow, row.edgeLight, row.uncovered, 100.0 * row.biasError(), row.rmse,
-        row.flip ? fmt::format("{:.4f}", *row.flip) : "", row.buildMs, row.shadeMs);
+    text += line(mapText(comparison, row), biasText(row), row.filter, knobText(row), columns.line(row));
   }
   return text;
 }
@@ -107,10 +96,10 @@ std::string tuningTable(const Comparison& comparison) {
     text += fmt::format("tuned {} {}: {} in {} tries; bias error {:.4f}%", row.map, row.bias, knobText(row),
                         tuning.evaluations, 100.0 * row.biasError());
     if (tuning.otherCamera)
-      text += fmt::format("; camera {} {:.4f}% (best there {:.4f}%)", tuning.otherCameraName,
+      text += fmt::format("; camera {} {:.4f}% (best there {:.4f}%)", tuning.otherCamera->camera,
                           100.0 * tuning.otherCamera->biasError, 100.0 * tuning.otherCamera->bestBiasError);
     if (tuning.otherMapSize)
-      text += fmt::format("; map of {} {:.4f}% (best there {:.4f}%)", tuning.otherMapSide,
+      text += fmt::format("; map of {} {:.4f}% (best there {:.4f}%)", tuning.otherMapSize->mapSize,
                           100.0 * tuning.otherMapSize->biasError, 100.0 * tuning.otherMapSize->bestBiasError);
     text += "\n";
   }
@@ -128,7 +117,7 @@ std::string comparisonHeader(const Session& session, const Comparison& compariso
         "{} map of light '{}': {} pixels scored ({} lit), {} face away, {} outside the cone; instrument "
         "error {:.4f}% "
         "(margin {:.2g} m halved {}, doubled {})\n",
-        truth.map, truth.lightName, truth.scored, truth.lit, truth.facingAway, truth.outsideCone,
+        truth.map, truth.light.name, truth.scored, truth.lit, truth.facingAway, truth.outsideCone,
         100.0 * flips / static_cast<double>(truth.scored), truth.margin, truth.marginFlipsHalf,
         truth.marginFlipsDouble);
     if (!truth.fitNote.empty()) text += truth.fitNote + "\n";

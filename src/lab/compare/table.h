@@ -7,9 +7,6 @@
 
 namespace gnomon {
 
-// Rows by bias error, then by all wrong pixels, then as they ran.
-std::vector<Row> ranked(std::vector<Row> rows);
-
 std::string comparisonTable(const Comparison& comparison);
 
 // Of tuned rows: the value, how good it is elsewhere, and by what factor each method without a scene's knob

@@ -2,8 +2,6 @@
 
 #include "base/error.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <regex>
 
@@ -13,24 +11,25 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::array kMetrics = {"acne", "leak",      "edge_shadow", "edge_light",
-                                 "edge", "uncovered", "bias_error",  "rmse"};
-
-double metricOf(const Row& row, const std::string& metric) {
-  if (metric == "acne") return static_cast<double>(row.acne);
-  if (metric == "leak") return static_cast<double>(row.leak);
-  if (metric == "edge_shadow") return static_cast<double>(row.edgeShadow);
-  if (metric == "edge_light") return static_cast<double>(row.edgeLight);
-  if (metric == "edge") return static_cast<double>(row.edgeShadow + row.edgeLight);
-  if (metric == "uncovered") return static_cast<double>(row.uncovered);
-  return metric == "rmse" ? row.rmse : row.biasError();
+std::vector<NumberField<Row>> metrics() {
+  std::vector<NumberField<Row>> fields = numberFields<Row>();
+  std::erase_if(fields, [](const NumberField<Row>& field) { return !field.notes.metric; });
+  return fields;
 }
 
-bool isShare(const std::string& metric) {
-  return metric == "bias_error" || metric == "rmse";
+std::optional<NumberField<Row>> findMetric(const std::string& name) {
+  for (NumberField<Row>& metric : metrics())
+    if (name == metric.name) return std::move(metric);
+  return std::nullopt;
 }
 
 }  // namespace
+
+std::string thresholdMetrics() {
+  std::string names;
+  for (const NumberField<Row>& metric : metrics()) names += fmt::format("{}{}", names.empty() ? "" : ", ", metric.name);
+  return names;
+}
 
 Threshold parseThreshold(const std::string& text) {
   static const std::regex form(
@@ -38,10 +37,9 @@ Threshold parseThreshold(const std::string& text) {
   std::smatch match;
   Threshold threshold;
   threshold.text = text;
-  const char* help =
-      "write [[map/]bias:]metric>limit[%], as in 'acne>0.1%' or 'spot/adaptive:leak>0'; metrics are acne, "
-      "leak, "
-      "edge_shadow, edge_light, edge, uncovered, bias_error, rmse";
+  const std::string help =
+      "write [[map/]bias:]metric>limit[%], as in 'acne>0.1%' or 'spot/adaptive:leak>0'; metrics are " +
+      thresholdMetrics();
   if (!std::regex_match(text, match, form))
     throw UsageError(fmt::format("--fail-if '{}': not understood; {}", text, help));
   threshold.map = match[1];
@@ -57,17 +55,19 @@ Threshold parseThreshold(const std::string& text) {
   } catch (const std::exception&) {
     throw UsageError(fmt::format("--fail-if '{}': '{}' is no number; {}", text, match[5].str(), help));
   }
-  if (std::ranges::find(kMetrics, threshold.metric) == kMetrics.end())
+  if (!findMetric(threshold.metric))
     throw UsageError(fmt::format("--fail-if '{}': no metric '{}'; {}", text, threshold.metric, help));
   return threshold;
 }
 
 std::optional<std::string> crossed(const Threshold& threshold, const std::vector<Row>& rows) {
+  const NumberField<Row> metric = *findMetric(threshold.metric);
   for (const Row& row : rows) {
     if (!threshold.map.empty() && threshold.map != row.map) continue;
     if (!threshold.bias.empty() && threshold.bias != row.bias) continue;
-    double value = metricOf(row, threshold.metric);
-    if (threshold.percent) value *= isShare(threshold.metric) ? 100.0 : 100.0 / static_cast<double>(row.scored);
+    double value = metric.of(row).value_or(0.0);
+    const bool pixels = metric.notes.kind == NumberKind::Count;
+    if (threshold.percent) value *= pixels ? 100.0 / static_cast<double>(row.scored) : 100.0;
     const bool beyond = threshold.below ? value < threshold.limit : value > threshold.limit;
     if (beyond || (threshold.orEqual && value == threshold.limit))
       return fmt::format("{} {}: {} is {:.6g}{}, which crosses --fail-if '{}'", row.map, row.bias, threshold.metric,

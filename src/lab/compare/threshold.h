@@ -5,10 +5,10 @@
 //   adaptive:acne>0.1%    more than 0.1% of the scored pixels, in rows of that bias
 //   spot/dual:leak>=10    in rows of that map and bias
 //
-// Metrics: acne, leak, edge_shadow, edge_light, edge, uncovered, bias_error, rmse. Counts, unless a %
-// follows; bias_error is a share, rmse a number.
+// Metrics are the fields of a row that are declared as such (lab/results/row.h). Pixels are counts, unless a % follows;
+// bias_error is a share, rmse a number.
 
-#include "lab/compare/compare.h"
+#include "lab/results/row.h"
 
 #include <optional>
 #include <string>
@@ -25,6 +25,9 @@ struct Threshold {
   bool percent = false;
   double limit = 0.0;
 };
+
+// "acne, leak, ..."
+std::string thresholdMetrics();
 
 // Throws UsageError.
 Threshold parseThreshold(const std::string& text);

@@ -16,13 +16,13 @@ constexpr double kGolden = 0.6180339887498949;
 // Evaluations of one knob, by its value; everything else stays.
 class KnobSearch {
  public:
-  KnobSearch(Trial& trial, const Method& method, const BiasKnob& knob, float sceneScale)
-      : trial_(trial), method_(method), knob_(knob), unit_(knob.defaultOfSceneScale ? sceneScale : 1.0f) {}
+  KnobSearch(TuningEvaluator& evaluator, const Method& method, const Knob& knob, float sceneScale)
+      : evaluator_(evaluator), method_(method), knob_(knob), unit_(knob.defaultOfSceneScale ? sceneScale : 1.0f) {}
 
   Method best() {
     for (int i = 0; i < kTuneGrid; ++i) errors(gridValue(i));
     errors(knob_.lower);
-    errors(method_.params.*knob_.field);
+    errors(valueOf(method_.params, *method_.bias, knob_));
     std::vector<std::pair<float, size_t>> points(seen_.begin(), seen_.end());
     const auto [first, last] = bestRun(points);
     float value = points[(first + last) / 2].first;
@@ -40,14 +40,14 @@ class KnobSearch {
 
   Method with(float value) const {
     Method changed = method_;
-    changed.params.*knob_.field = value;
+    valueOf(changed.params, *changed.bias, knob_) = value;
     return changed;
   }
 
   size_t errors(float value) {
     const auto found = seen_.find(value);
     if (found != seen_.end()) return found->second;
-    return seen_.emplace(value, trial_.biasErrors(with(value))).first->second;
+    return seen_.emplace(value, evaluator_.biasErrors(with(value))).first->second;
   }
 
   // The longest run of neighbouring points with the fewest errors.
@@ -92,38 +92,39 @@ class KnobSearch {
     return best;
   }
 
-  Trial& trial_;
+  TuningEvaluator& evaluator_;
   Method method_;
-  BiasKnob knob_;
+  const Knob& knob_;
   float unit_;
   std::map<float, size_t> seen_;
 };
 
 }  // namespace
 
-size_t Trial::biasErrors(const Method& method) {
+size_t TuningEvaluator::biasErrors(const Method& method) {
   ++evaluations_;
-  const DrawnMap& map = maps_.with(method.bias->content);
-  const auto diagnosis = diagnose(session_, passes_, map, exact_, method);
-  shadowed_.resize(diagnosis.size());
-  lit_.resize(diagnosis.size());
-  const auto wronglyLit = [&](size_t i) { return exact_.truth.lit[i] == 0; };
-  const auto known = [&](size_t i) -> Known& { return wronglyLit(i) ? lit_[i] : shadowed_[i]; };
+  const auto diagnosis = lit_.diagnose(method);
+  const Receivers& receivers = lit_.receivers();
+  const Truth& truth = lit_.truth();
+  const FittedMap& map = lit_.fitted();
+  wronglyShadowed_.resize(diagnosis.size());
+  wronglyLit_.resize(diagnosis.size());
+  const auto known = [&](size_t i) -> Known& { return truth.lit[i] == 0 ? wronglyLit_[i] : wronglyShadowed_[i]; };
 
   // Pixels that are known already, or right, are said to be right.
   std::vector<Verdict> unknown(diagnosis.size(), Verdict::NotAsked);
   std::vector<size_t> wrong;
   for (size_t i = 0; i < diagnosis.size(); ++i) {
-    if (exact_.receivers.states[i] != PixelState::Scored) continue;
-    const Verdict right = exact_.truth.lit[i] != 0 ? Verdict::Lit : Verdict::Shadow;
+    if (receivers.states[i] != PixelState::Scored) continue;
+    const Verdict right = truth.lit[i] != 0 ? Verdict::Lit : Verdict::Shadow;
     const Verdict verdict = verdictOf(diagnosis[i]);
     unknown[i] = right;
     if (verdict == right || verdict == Verdict::NotAsked || verdict == Verdict::Uncovered) continue;
     wrong.push_back(i);
     if (known(i).label == Label::NotScored || known(i).texel != diagnosis[i].texel) unknown[i] = verdict;
   }
-  const LabelImage labels = labelPixels(session_.tracer(), exact_.light, exact_.receivers, exact_.truth, unknown,
-                                        [&](size_t pixel) { return texelRayW(map.fitted, diagnosis[pixel].texel); });
+  const LabelImage labels = labelPixels(lit_.view().tracer(), lit_.light(), receivers, truth, unknown,
+                                        [&](size_t pixel) { return texelRayW(map, diagnosis[pixel].texel); });
   size_t errors = 0;
   for (const size_t i : wrong) {
     if (labels.labels[i] != Label::Agree) known(i) = {diagnosis[i].texel, labels.labels[i]};
@@ -133,15 +134,16 @@ size_t Trial::biasErrors(const Method& method) {
   return errors;
 }
 
-TunedMethod tune(Trial& trial, const Method& start) {
+TunedMethod tune(TuningEvaluator& evaluator, const Method& start) {
   TunedMethod tuned{.method = start};
-  const int before = trial.evaluations();
-  const std::vector<BiasKnob>& knobs = knobsOf(*start.bias);
+  const int before = evaluator.evaluations();
+  const std::vector<Knob>& knobs = knobsOf(*start.bias);
   const int rounds = knobs.size() > 1 ? 2 : 1;
   for (int round = 0; round < rounds; ++round)
-    for (const BiasKnob& knob : knobs) tuned.method = KnobSearch(trial, tuned.method, knob, trial.sceneScale()).best();
-  tuned.biasErrors = trial.biasErrors(tuned.method);
-  tuned.evaluations = trial.evaluations() - before;
+    for (const Knob& knob : knobs)
+      tuned.method = KnobSearch(evaluator, tuned.method, knob, evaluator.sceneScale()).best();
+  tuned.biasErrors = evaluator.biasErrors(tuned.method);
+  tuned.evaluations = evaluator.evaluations() - before;
   return tuned;
 }
 

@@ -3,19 +3,18 @@
 // share one map and one truth, and each pixel's label is found once (a pixel that is wrong in the same way,
 // by the same texel, is wrong for the same reason whatever the knob says).
 
-#include "lab/core/map_set.h"
+#include "judge/light_on_map.h"
 
 namespace gnomon {
 
 // Counts the pixels a bias is answerable for (acne + leak), again and again.
-class Trial {
+class TuningEvaluator {
  public:
-  Trial(const Session& session, Passes& passes, const Exact& exact, MapSet& maps)
-      : session_(session), passes_(passes), exact_(exact), maps_(maps) {}
+  explicit TuningEvaluator(LightOnMap& lit) : lit_(lit) {}
 
   size_t biasErrors(const Method& method);
-  double scored() const { return static_cast<double>(exact_.receivers.scored); }
-  float sceneScale() const { return maps_.fitted().map.sceneScale; }  // metres
+  double scored() const { return static_cast<double>(lit_.receivers().scored); }
+  float sceneScale() const { return lit_.fitted().map.sceneScale; }  // metres
   int evaluations() const { return evaluations_; }
 
  private:
@@ -24,11 +23,8 @@ class Trial {
     Label label = Label::NotScored;
   };
 
-  const Session& session_;
-  Passes& passes_;
-  const Exact& exact_;
-  MapSet& maps_;
-  std::vector<Known> shadowed_, lit_;  // wrongly so; one a pixel
+  LightOnMap& lit_;
+  std::vector<Known> wronglyShadowed_, wronglyLit_;  // one a pixel
   int evaluations_ = 0;
 };
 
@@ -42,6 +38,6 @@ struct TunedMethod {
 // bound, then by golden section between the best one's neighbours; a method with two knobs goes round twice.
 // Where several neighbouring values are equally good, the middle one is taken. Deterministic.
 inline constexpr int kTuneGrid = 13;
-TunedMethod tune(Trial& trial, const Method& start);
+TunedMethod tune(TuningEvaluator& evaluator, const Method& start);
 
 }  // namespace gnomon

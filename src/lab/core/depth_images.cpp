@@ -1,23 +1,13 @@
 #include "lab/core/depth_images.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace gnomon {
 
-DepthImages depthInMetres(const Session& session, const DrawnMap& map) {
-  const glsl::ShadowMap& shape = map.fitted.map;
-  const bool positional = map.fitted.positional;
-  std::vector<float> first;
-  if (map.volume) {
-    first = gpu::downloadAs<float>(session.device(), map.volume->occluders());
-    for (float& alpha : first) alpha = std::min(alpha / glsl::alphaUpper(shape.epipolar), 1.0f);
-  } else {
-    first = gpu::downloadAs<float>(session.device(), map.image->depth());
-  }
-  std::vector<float> second;
-  if (map.image && map.image->content() == MapContent::TwoLayers)
-    second = gpu::downloadAs<float>(session.device(), map.image->secondDepth());
+DepthImages depthInMetres(const gpu::Device& device, const Occluders& occluders) {
+  const glsl::ShadowMap& shape = occluders.fitted().map;
+  const bool positional = occluders.fitted().positional;
+  const std::vector<float> first = occluders.downloadDepth(device), second = occluders.downloadSecondDepth(device);
   const ImageF nothing(shape.side * shape.layerCount, shape.rows, 1, std::numeric_limits<float>::infinity());
   DepthImages images{.first = nothing};
   if (!second.empty()) images.second = images.gap = nothing;

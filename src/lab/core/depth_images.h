@@ -1,7 +1,8 @@
 #pragma once
-// What a drawn map stores, in metres.
+// What a drawn map or volume stores, in metres.
 
-#include "lab/core/session.h"
+#include "base/image.h"
+#include "shadow/occluders.h"
 
 #include <optional>
 
@@ -13,6 +14,6 @@ struct DepthImages {
   ImageF first;
   std::optional<ImageF> second, gap;
 };
-DepthImages depthInMetres(const Session& session, const DrawnMap& map);
+DepthImages depthInMetres(const gpu::Device& device, const Occluders& occluders);
 
 }  // namespace gnomon

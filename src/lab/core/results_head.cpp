@@ -1,36 +1,51 @@
 #include "lab/core/results_head.h"
 
-#include <nlohmann/json.hpp>
-
 namespace gnomon {
 
-using Json = nlohmann::ordered_json;
+namespace {
 
-Json vectorJson(const glm::vec3& v) {
-  return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)});
+const char* lightTypeName(LightType type) {
+  switch (type) {
+    case LightType::Point:
+      return "point";
+    case LightType::Spot:
+      return "spot";
+    case LightType::Directional:
+      return "directional";
+  }
+  return "";
 }
 
-Json resultsHead(const Session& session, const SetupOptions& setup, const std::string& command, double gbufferMs) {
+}  // namespace
+
+ResultsHead resultsHead(const Session& session, const std::string& command, double gbufferMs) {
   const glsl::CameraView& view = session.view();
-  Json json;
-  json["schema"] = kResultsVersion;
-  json["gnomon"] = {{"version", gnomonVersion()},
-                    {"device", session.device().info().name},
-                    {"driver", session.device().info().driver},
-                    {"command", command}};
-  json["scene"] = {{"name", session.scene().name},
-                   {"source", setup.scene},
-                   {"triangles", triangleCount(session.scene())},
-                   {"sceneScale", shortest(computeBounds(session.scene()).diagonal())}};
-  json["camera"] = {{"name", session.camera().name},
-                    {"eye", vectorJson(view.eyeW)},
-                    {"forward", vectorJson(view.forwardW)},
-                    {"up", vectorJson(view.upW)},
-                    {"fov_degrees", shortest(glm::degrees(session.camera().yFovRad))},
-                    {"width", view.width},
-                    {"height", view.height}};
-  json["gbuffer_ms"] = gbufferMs;
-  return json;
+  ResultsHead head;
+  head.program = {.version = gnomonVersion(),
+                  .device = session.device().info().name,
+                  .driver = session.device().info().driver,
+                  .command = command};
+  head.scene = {.name = session.scene().name,
+                .source = session.setup().scene,
+                .triangles = triangleCount(session.scene()),
+                .sceneScale = computeBounds(session.scene()).diagonal()};
+  head.camera = {.name = session.camera().name,
+                 .eye = view.eyeW,
+                 .forward = view.forwardW,
+                 .up = view.upW,
+                 .fovDegrees = glm::degrees(session.camera().yFovRad),
+                 .width = view.width,
+                 .height = view.height};
+  head.gbufferMs = gbufferMs;
+  return head;
+}
+
+LightFacts lightFacts(const std::string& name, const LightModel& light) {
+  LightFacts facts{.name = name, .type = lightTypeName(light.type)};
+  if (light.type != LightType::Directional) facts.position = glm::vec3(light.positionW);
+  if (light.type != LightType::Point) facts.direction = glm::vec3(light.directionW);
+  if (light.type == LightType::Spot) facts.coneDegrees = static_cast<float>(2.0 * glm::degrees(light.outerConeRad));
+  return facts;
 }
 
 }  // namespace gnomon

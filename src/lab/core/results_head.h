@@ -1,17 +1,14 @@
 #pragma once
-// What the results file of every verb begins with.
+// What the results file of every verb begins with, and a light as it tells it.
 
 #include "lab/core/session.h"
-#include "lab/results/schema.h"
-
-#include <nlohmann/json_fwd.hpp>
+#include "lab/results/head.h"
+#include "lab/results/light_facts.h"
 
 namespace gnomon {
 
-// Schema, gnomon, scene, camera, gbuffer_ms.
-nlohmann::ordered_json resultsHead(const Session& session, const SetupOptions& setup, const std::string& command,
-                                   double gbufferMs);
+ResultsHead resultsHead(const Session& session, const std::string& command, double gbufferMs);
 
-nlohmann::ordered_json vectorJson(const glm::vec3& v);
+LightFacts lightFacts(const std::string& name, const LightModel& light);
 
 }  // namespace gnomon

@@ -1,9 +1,9 @@
 #include "lab/core/setup.h"
 
 #include "base/error.h"
+#include "judge/ground_truth.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -12,26 +12,6 @@
 namespace gnomon {
 
 namespace {
-
-std::optional<double> parseNumber(const std::string& text) {
-  double value = 0.0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::optional<glm::vec3> tryVec3(const std::string& text) {
-  std::istringstream words(text);
-  glm::vec3 v(0.0f);
-  int count = 0;
-  for (std::string word; std::getline(words, word, ','); ++count) {
-    const std::optional<double> number = parseNumber(word);
-    if (!number || count == 3) return std::nullopt;
-    v[count] = static_cast<float>(*number);
-  }
-  if (count != 3) return std::nullopt;
-  return v;
-}
 
 template <typename T>
 std::string namesOf(const std::vector<T>& things) {
@@ -83,12 +63,9 @@ Camera cameraThatSees(const Tracer& tracer) {
   return lookAt("sees the scene", eye, bounds.center(), kFov);
 }
 
-// The first light of a kind the map is made for, else the first it can make do with.
-Light firstLightFor(const Tracer& tracer, const Parameterization& map) {
-  for (const auto wanted : {Parameterization::Takes::Yes, Parameterization::Takes::IfNothingElse})
-    for (const Light& light : tracer.scene().lights)
-      if (map.takes(light.type) == wanted) return light;
-  return lightAboveCenter(tracer);
+Light defaultLight(const Tracer& tracer, const Parameterization& map) {
+  const Light* first = firstLightFor(tracer.scene(), map);
+  return first != nullptr ? *first : lightAboveCenter(tracer);
 }
 
 Light findLight(const Scene& scene, const std::string& text) {
@@ -145,6 +122,20 @@ Camera parseCamera(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::string> setupWords(const SetupOptions& options) {
+  std::vector<std::string> words = {options.scene};
+  const auto add = [&](const char* flag, const std::string& value, const std::string& usual) {
+    if (value != usual) words.insert(words.end(), {flag, value});
+  };
+  const SetupOptions defaults;
+  add("--light", options.light, defaults.light);
+  add("--camera", options.camera, defaults.camera);
+  add("--direction", options.direction, defaults.direction);
+  if (options.coneDegrees) add("--cone", fmt::format("{}", *options.coneDegrees), "");
+  add("--size", options.size, defaults.size);
+  return words;
+}
+
 PictureSize parseSize(const std::string& text) {
   PictureSize size;
   char by = 0, rest = 0;
@@ -161,15 +152,9 @@ PictureSize parseSize(const std::string& text) {
   return size;
 }
 
-glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
-  const std::optional<glm::vec3> v = tryVec3(text);
-  if (!v) throw UsageError(fmt::format("{} {}: write three numbers, x,y,z", flag, text));
-  return *v;
-}
-
 Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {
   const Scene& scene = tracer.scene();
-  Light light = options.light.empty() ? firstLightFor(tracer, map) : findLight(scene, options.light);
+  Light light = options.light.empty() ? defaultLight(tracer, map) : findLight(scene, options.light);
   if (!options.direction.empty()) {
     const glm::vec3 direction = parseVec3("--direction", options.direction);
     if (glm::length(direction) == 0.0f) throw UsageError("--direction 0,0,0 has no direction; write x,y,z");
@@ -181,7 +166,7 @@ Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Param
       throw UsageError(fmt::format("--cone {}: a spot's full angle is 1..170 degrees", *options.coneDegrees));
     light.outerConeRad = static_cast<float>(glm::radians(0.5 * *options.coneDegrees));
   }
-  if (map.takes(light.type) == Parameterization::Takes::No)
+  if (map.supportsLight(light.type) == LightSupport::No)
     throw WorldError(
         fmt::format("--light {}: a directional light has no position, so a {} map cannot be made of it; take "
                     "--maps directional, or another light, or x,y,z",
@@ -192,10 +177,10 @@ Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Param
 std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {
   if (options.light != "all") return {chooseLight(options, tracer, map)};
   std::vector<Light> lights;
-  for (const auto wanted : {Parameterization::Takes::Yes, Parameterization::Takes::IfNothingElse}) {
+  for (const auto wanted : {LightSupport::Yes, LightSupport::Fallback}) {
     if (!lights.empty()) break;
     for (const Light& light : tracer.scene().lights) {
-      if (map.takes(light.type) != wanted) continue;
+      if (map.supportsLight(light.type) != wanted) continue;
       SetupOptions one = options;
       one.light = light.name;
       lights.push_back(chooseLight(one, tracer, map));

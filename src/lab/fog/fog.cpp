@@ -29,11 +29,27 @@ std::vector<MediaMethod> methodsOf(const FogOptions& options) {
   return methods;
 }
 
-MediaRow rowOf(const MediaMethod& method, const FogMethodResult& measured, const FogOptions& options) {
+Params paramsOf(const MediaMethod& method, const FogOptions& options, size_t lightCount) {
   const bool march = method.integrator == Integrator::March;
-  return {.method = method,
+  Params params = {{"map_size", march ? std::to_string(options.mapSide) : options.map.text(kVolumeSize)},
+                   {"lights", static_cast<int64_t>(lightCount)}};
+  if (!march) {
+    params.push_back({"vsv_source", options.map.text(kVolumeSource)});
+    params.push_back({"vsv_fit", options.map.text(kVolumeFit)});
+    if (options.map.get(kVolumeSource) == VolumeSource::Resample) params.push_back({"cube_size", int64_t{options.mapSide}});
+  }
+  params.push_back({"cull", cullModeName(options.cull)});
+  return params;
+}
+
+MediaRow rowOf(const MediaMethod& method, const FogMethodResult& measured, const FogOptions& options,
+               size_t lightCount) {
+  const bool march = method.integrator == Integrator::March;
+  return {.integrator = integratorName(method.integrator),
+          .steps = method.steps > 0 ? std::optional(method.steps) : std::nullopt,
+          .isBaseline = march,
           .map = march ? options.marchMap->name() : volumeParameterization().name(),
-          .mapSize = march ? std::to_string(options.mapSide) : volumeSizeName(options.map.volumeSize),
+          .params = paramsOf(method, options, lightCount),
           .mapMs = measured.mapMs,
           .tableMs = measured.tableMs,
           .integrateMs = measured.integrateMs};
@@ -55,7 +71,7 @@ void judgeRows(FogResult& result) {
 void writePictures(const FogOptions& options, FogResult& result) {
   const ImageF* reference = result.reference ? &result.reference->inScattered : nullptr;
   for (size_t i = 0; i < result.rows.size(); ++i) {
-    std::string stem = "media/" + mediaMethodName(result.rows[i].method);
+    std::string stem = "media/" + result.rows[i].name();
     std::ranges::replace(stem, ' ', '_');
     result.rows[i].pictures = writeMediaRowPictures(result.view, result.inScattered[i], reference, result.worst,
                                                     {result.exposure, result.mediumExposure}, stem, options.outDir);
@@ -69,7 +85,7 @@ void writePictures(const FogOptions& options, FogResult& result) {
 
 FogResult runFog(const Session& session, const FogOptions& options) {
   FogResult result;
-  Passes passes(session.device(), session.view());
+  ShadowPasses passes(session);
   {
     Progress progress("fog", 2);
     progress.step("surfaces");
@@ -85,9 +101,10 @@ FogResult runFog(const Session& session, const FogOptions& options) {
                                .mapSide = options.mapSide,
                                .cull = options.cull,
                                .repeats = options.repeats};
-    const std::vector<FogMethodResult> measured = runFogMethods(session, passes.renderers, result.view, how);
+    const std::vector<FogMethodResult> measured = runFogMethods(session, passes, result.view, how);
+    result.methods = how.methods;
     for (size_t i = 0; i < measured.size(); ++i) {
-      result.rows.push_back(rowOf(how.methods[i], measured[i], options));
+      result.rows.push_back(rowOf(how.methods[i], measured[i], options, result.view.lights.size()));
       result.inScattered.push_back(measured[i].inScattered);
     }
   }
@@ -101,7 +118,7 @@ FogResult runFog(const Session& session, const FogOptions& options) {
   result.mediumExposure =
       mediumExposureFor(result.reference ? result.reference->inScattered : result.inScattered.front());
   if (result.reference) judgeRows(result);
-  if (options.motion) runMotion(session, passes.renderers, options, result);
+  if (options.motion) runMotion(session, passes, options, result);
   if (!options.outDir.empty()) writePictures(options, result);
   return result;
 }

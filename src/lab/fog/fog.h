@@ -42,7 +42,8 @@ struct FogResult {
   FogExposure mediumExposure;  // of the medium alone
   std::optional<MediaReference> reference;
   bool referenceFromCache = false;
-  std::vector<MediaRow> rows;
+  std::vector<MediaMethod> methods;
+  std::vector<MediaRow> rows;          // one a method
   std::vector<ImageF> inScattered;     // one a row, rgb, cd/m^2
   std::vector<EqualTerms> equalTerms;  // of the volume's ways against the march
   std::optional<WorstPlace> worst;     // where the first row errs most

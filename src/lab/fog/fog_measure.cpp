@@ -26,11 +26,10 @@ double costOf(const MediaRow& row, bool withBuild) {
 }
 
 // By time.
-std::vector<CurvePoint> marchCurve(const std::vector<MediaRow>& rows, bool withBuild, ErrorMeasure measure) {
+std::vector<CurvePoint> baselineCurve(const std::vector<MediaRow>& rows, bool withBuild, ErrorMeasure measure) {
   std::vector<CurvePoint> curve;
   for (const MediaRow& row : rows)
-    if (row.method.integrator == Integrator::March && errorOf(row, measure))
-      curve.push_back({costOf(row, withBuild), *errorOf(row, measure)});
+    if (row.isBaseline && errorOf(row, measure)) curve.push_back({costOf(row, withBuild), *errorOf(row, measure)});
   std::ranges::sort(curve, {}, &CurvePoint::ms);
   return curve;
 }
@@ -44,7 +43,7 @@ double logarithmic(double x, double x0, double x1, double y0, double y1) {
   return std::exp(std::log(y0) + share * (std::log(y1) - std::log(y0)));
 }
 
-// The march's time for an error, over `ms`.
+// The baseline's time for an error, over `ms`.
 Factor fasterAt(const std::vector<CurvePoint>& curve, double error, double ms) {
   if (curve.front().error <= error) return {curve.front().ms / ms, Bound::AtMost};
   for (size_t i = 1; i < curve.size(); ++i)
@@ -53,7 +52,7 @@ Factor fasterAt(const std::vector<CurvePoint>& curve, double error, double ms) {
   return {curve.back().ms / ms, Bound::AtLeast};
 }
 
-// The march's error in a time, over `error`.
+// The baseline's error in a time, over `error`.
 Factor betterAt(const std::vector<CurvePoint>& curve, double ms, double error) {
   if (ms < curve.front().ms) return {curve.front().error / error, Bound::AtLeast};
   for (size_t i = 1; i < curve.size(); ++i)
@@ -97,20 +96,20 @@ double changeBeyond(const ImageF& measured, const ImageF& measuredNext, const Im
   return sum / static_cast<double>(reference.values.size());
 }
 
-const char* errorMeasureName(ErrorMeasure measure) {
-  return measure == ErrorMeasure::RelRmse ? "rel_rmse" : "rel_rmse_99";
-}
-
 std::vector<EqualTerms> equalTerms(const std::vector<MediaRow>& rows) {
   std::vector<EqualTerms> terms;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].method.integrator == Integrator::March) continue;
+  const auto baseline = std::ranges::find(rows, true, &MediaRow::isBaseline);
+  if (baseline == rows.end()) return terms;
+  for (const MediaRow& row : rows) {
+    if (row.isBaseline) continue;
     for (const bool withBuild : {true, false}) {
       for (const ErrorMeasure measure : {ErrorMeasure::RelRmse, ErrorMeasure::RelRmse99}) {
-        const std::vector<CurvePoint> curve = marchCurve(rows, withBuild, measure);
-        const CurvePoint own{costOf(rows[i], withBuild), errorOf(rows[i], measure).value_or(0.0)};
+        const std::vector<CurvePoint> curve = baselineCurve(rows, withBuild, measure);
+        const CurvePoint own{costOf(row, withBuild), errorOf(row, measure).value_or(0.0)};
         if (curve.empty() || !std::ranges::all_of(curve, isUsable) || !isUsable(own)) continue;
-        terms.push_back({.row = i,
+        terms.push_back({.integrator = row.integrator,
+                         .steps = row.steps,
+                         .against = baseline->integrator,
                          .withBuild = withBuild,
                          .measure = measure,
                          .faster = fasterAt(curve, own.error, own.ms),
@@ -145,7 +144,7 @@ std::optional<WorstPlace> worstMediaPlace(const ImageF& measured, const ImageF& 
     }
   }
   const int size = std::min({kWorstSide, width, height});
-  WorstPlace worst{.size = size, .pixels = static_cast<size_t>(size) * static_cast<size_t>(size)};
+  WorstPlace worst{.size = size};
   double most = 0.0;
   for (int y = 0; y + size <= height; ++y) {
     for (int x = 0; x + size <= width; ++x) {

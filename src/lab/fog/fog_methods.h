@@ -26,10 +26,7 @@ struct FogMethodResult {
 };
 
 // One a method, in order.
-std::vector<FogMethodResult> runFogMethods(const Session& session, const Renderers& renderers, const FogView& view,
+std::vector<FogMethodResult> runFogMethods(const SceneView& scene, ShadowPasses& passes, const FogView& view,
                                            const FogMethodOptions& options);
-
-// "runs", "march 128".
-std::string mediaMethodName(const MediaMethod& method);
 
 }  // namespace gnomon

@@ -60,8 +60,8 @@ bool writeVideo(const fs::path& ffmpeg, const fs::path& frames, const fs::path& 
   return made && !failure;
 }
 
-std::string stemOf(const MediaMethod& method) {
-  std::string stem = mediaMethodName(method);
+std::string stemOf(const MediaRow& row) {
+  std::string stem = row.name();
   std::ranges::replace(stem, ' ', '_');
   return stem;
 }
@@ -75,20 +75,20 @@ std::string writeVideos(const fs::path& folder, const std::vector<std::string>& 
   return "frames as PNG, and a video of each";
 }
 
-// The session as its camera sees the frame, and the lights of the frame.
+// The scene as the camera sees the frame, and the lights of the frame.
 struct Moment {
-  std::unique_ptr<Session> moved;
-  const Session* session = nullptr;
+  std::unique_ptr<SceneView> moved;
+  const SceneView* scene = nullptr;
   std::vector<Light> lights;
 };
 
-Moment momentAt(const Session& session, const std::vector<Light>& lights, const FogMotion& motion, int frame) {
-  Moment moment{.session = &session, .lights = lights};
+Moment momentAt(const SceneView& scene, const std::vector<Light>& lights, const FogMotion& motion, int frame) {
+  Moment moment{.scene = &scene, .lights = lights};
   if (motion.camera) {
-    Camera camera = session.camera();
+    Camera camera = scene.camera();
     camera.worldFromEye[3] = glm::vec4(placeAt(motion, glm::vec3(camera.worldFromEye[3]), frame), 1.0f);
-    moment.moved = std::make_unique<Session>(session, camera);
-    moment.session = moment.moved.get();
+    moment.moved = std::make_unique<SceneView>(scene, camera);
+    moment.scene = moment.moved.get();
   } else {
     for (Light& light : moment.lights) light.positionW = placeAt(motion, light.positionW, frame);
   }
@@ -115,15 +115,15 @@ FogMotion parseMotion(const std::string& text, int frames) {
   return motion;
 }
 
-void runMotion(const Session& session, const Renderers& renderers, const FogOptions& options, FogResult& result) {
+void runMotion(const SceneView& scene, ShadowPasses& passes, const FogOptions& options, FogResult& result) {
   const FogMotion& motion = *options.motion;
-  FogMethodOptions how{
-      .marchMap = options.marchMap, .map = options.map, .mapSide = options.mapSide, .cull = options.cull};
+  FogMethodOptions how{.methods = result.methods,
+                       .marchMap = options.marchMap,
+                       .map = options.map,
+                       .mapSide = options.mapSide,
+                       .cull = options.cull};
   std::vector<std::string> stems;
-  for (const MediaRow& row : result.rows) {
-    how.methods.push_back(row.method);
-    stems.push_back(stemOf(row.method));
-  }
+  for (const MediaRow& row : result.rows) stems.push_back(stemOf(row));
   if (options.truth) stems.emplace_back("reference");
   std::vector<ImageF> before(stems.size());
   std::vector<double> beyond(result.rows.size(), 0.0);
@@ -131,14 +131,13 @@ void runMotion(const Session& session, const Renderers& renderers, const FogOpti
   Progress progress("frames", motion.frames);
   for (int frame = 0; frame < motion.frames; ++frame) {
     progress.step("");
-    const Moment moment = momentAt(session, result.view.lights, motion, frame);
-    Passes passes(moment.session->device(), moment.session->view());
-    FogView view = lookIntoFog(*moment.session, passes, moment.lights, options.medium);
+    const Moment moment = momentAt(scene, result.view.lights, motion, frame);
+    FogView view = lookIntoFog(*moment.scene, passes, moment.lights, options.medium);
     std::vector<ImageF> images;
-    for (FogMethodResult& method : runFogMethods(*moment.session, renderers, view, how))
+    for (FogMethodResult& method : runFogMethods(*moment.scene, passes, view, how))
       images.push_back(std::move(method.inScattered));
     if (options.truth)
-      images.push_back(referenceFor(*moment.session, view, options.reference, options.cache).reference.inScattered);
+      images.push_back(referenceFor(*moment.scene, view, options.reference, options.cache).reference.inScattered);
     for (size_t i = 0; i < images.size() && !options.outDir.empty(); ++i)
       writePng(options.outDir / "frames" / stems[i] / fmt::format("{:04}.png", frame),
                exposed(composed(view, images[i]), result.exposure));

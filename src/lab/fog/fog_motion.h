@@ -10,7 +10,7 @@ FogMotion parseMotion(const std::string& text, int frames);
 
 // Runs the methods of `result.rows` on every frame; sets their flicker where there is a reference, writes
 // frames below the options' folder, and says in `result.motionNote` what became of the video.
-void runMotion(const Session& session, const Renderers& renderers, const FogOptions& options, FogResult& result);
+void runMotion(const SceneView& scene, ShadowPasses& passes, const FogOptions& options, FogResult& result);
 
 // Whether the path has been taken: the camera's or the light's place at a frame.
 glm::vec3 placeAt(const FogMotion& motion, const glm::vec3& startW, int frame);

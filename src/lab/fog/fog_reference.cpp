@@ -122,16 +122,16 @@ void writeReference(const std::filesystem::path& path, const gpu::Hash128& key, 
 
 }  // namespace
 
-gpu::Hash128 referenceKey(const Session& session, const FogView& view, const MediaReferenceOptions& options) {
+gpu::Hash128 referenceKey(const SceneView& scene, const FogView& view, const MediaReferenceOptions& options) {
   std::string bytes = fmt::format("media reference, version {}", kMethodVersion);
-  appendScene(bytes, session.scene());
+  appendScene(bytes, scene.scene());
   for (const MediaLight& light : view.exactLights) {
     append(bytes, light.positionW);
     append(bytes, light.intensity);
     append(bytes, light.axisW);
     append(bytes, light.cosCone);
   }
-  append(bytes, session.view());
+  append(bytes, scene.view());
   appendHash(bytes, std::span<const double>(view.ends));
   append(bytes, view.model.sigmaS);
   append(bytes, view.model.sigmaA);
@@ -151,17 +151,17 @@ std::filesystem::path referenceFile(const gpu::Hash128& key) {
   return folder.empty() ? folder : folder / "media" / fmt::format("{:016x}{:016x}.reference", key[0], key[1]);
 }
 
-KeptReference referenceFor(const Session& session, const FogView& view, const MediaReferenceOptions& options,
+KeptReference referenceFor(const SceneView& scene, const FogView& view, const MediaReferenceOptions& options,
                            bool cache) {
-  const gpu::Hash128 key = referenceKey(session, view, options);
+  const gpu::Hash128 key = referenceKey(scene, view, options);
   const std::filesystem::path path = cache ? referenceFile(key) : std::filesystem::path();
   std::error_code failure;
   if (!path.empty() && std::filesystem::is_regular_file(path, failure)) {
-    if (std::optional<MediaReference> kept = readReference(path, key, session.view()))
+    if (std::optional<MediaReference> kept = readReference(path, key, scene.view()))
       return {.reference = std::move(*kept), .fromCache = true};
     std::fprintf(stderr, "gnomon: %s: is damaged; the reference is computed anew\n", path.string().c_str());
   }
-  KeptReference made{.reference = computeMediaReference(session.tracer(), view.exactLights, session.view(), view.ends,
+  KeptReference made{.reference = computeMediaReference(scene.tracer(), view.exactLights, scene.view(), view.ends,
                                                         view.model, options)};
   if (!path.empty()) writeReference(path, key, made.reference);
   return made;

@@ -12,11 +12,11 @@ struct KeptReference {
   MediaReference reference;
   bool fromCache = false;
 };
-KeptReference referenceFor(const Session& session, const FogView& view, const MediaReferenceOptions& options,
+KeptReference referenceFor(const SceneView& scene, const FogView& view, const MediaReferenceOptions& options,
                            bool cache);
 
 // What tells one reference from another.
-gpu::Hash128 referenceKey(const Session& session, const FogView& view, const MediaReferenceOptions& options);
+gpu::Hash128 referenceKey(const SceneView& scene, const FogView& view, const MediaReferenceOptions& options);
 
 // Where it is kept; empty where there is no cache.
 std::filesystem::path referenceFile(const gpu::Hash128& key);

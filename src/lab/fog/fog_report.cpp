@@ -1,6 +1,7 @@
 #include "lab/fog/fog_report.h"
 
 #include "lab/core/results_head.h"
+#include "lab/results/results_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +9,8 @@
 #include <glm/gtx/component_wise.hpp>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 namespace gnomon {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -44,30 +41,23 @@ std::string referenceText(const FogResult& result) {
          fmt::format("; {}{:.1f} s)", result.referenceFromCache ? "kept from a run of " : "", reference.ms / 1000.0);
 }
 
-std::string shareText(const std::optional<double>& share) {
-  return share ? fmt::format("{:.5f}", *share) : "";
-}
-
 // Of a row, with or without builds: both measures in one line.
 std::string termsText(const FogResult& result) {
   if (result.equalTerms.empty()) return "";
-  std::string text = fmt::format("{:<35}{:>28}{:>32}\n{:<35}{:>16}{:>12}{:>20}{:>12}\n", "against march",
-                                 "times faster at equal error", "times less error at equal time", "", "rel rmse",
-                                 "rmse 99%", "rel rmse", "rmse 99%");
-  const auto find = [&](size_t row, bool withBuild, ErrorMeasure measure, bool faster) -> std::string {
-    for (const EqualTerms& terms : result.equalTerms)
-      if (terms.row == row && terms.withBuild == withBuild && terms.measure == measure)
-        return factorText(faster ? terms.faster : terms.better);
-    return "-";
-  };
-  for (size_t row = 0; row < result.rows.size(); ++row) {
+  std::string text = fmt::format("{:<35}{:>28}{:>32}\n{:<35}{:>16}{:>12}{:>20}{:>12}\n",
+                                 "against " + result.equalTerms.front().against, "times faster at equal error",
+                                 "times less error at equal time", "", "rel rmse", "rmse 99%", "rel rmse", "rmse 99%");
+  for (const MediaRow& row : result.rows) {
+    if (row.isBaseline) continue;
     for (const bool withBuild : {true, false}) {
-      if (result.rows[row].method.integrator == Integrator::March) continue;
+      const auto factor = [&](ErrorMeasure measure, Factor EqualTerms::*which) -> std::string {
+        const EqualTerms* terms = findTerms(result.equalTerms, row.name(), withBuild, measure);
+        return terms != nullptr ? factorText(terms->*which) : "-";
+      };
       text += fmt::format(
-          "{:<13}{:<22}{:>16}{:>12}{:>20}{:>12}\n", mediaMethodName(result.rows[row].method),
-          withBuild ? "map, table, integral" : "integral alone", find(row, withBuild, ErrorMeasure::RelRmse, true),
-          find(row, withBuild, ErrorMeasure::RelRmse99, true), find(row, withBuild, ErrorMeasure::RelRmse, false),
-          find(row, withBuild, ErrorMeasure::RelRmse99, false));
+          "{:<13}{:<22}{:>16}{:>12}{:>20}{:>12}\n", row.name(), withBuild ? "map, table, integral" : "integral alone",
+          factor(ErrorMeasure::RelRmse, &EqualTerms::faster), factor(ErrorMeasure::RelRmse99, &EqualTerms::faster),
+          factor(ErrorMeasure::RelRmse, &EqualTerms::better), factor(ErrorMeasure::RelRmse99, &EqualTerms::better));
     }
   }
   return text +
@@ -75,94 +65,41 @@ std::string termsText(const FogResult& result) {
          "better or faster with all of them\n";
 }
 
-Json optionalJson(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-
-Json picturesJson(const Pictures& pictures) {
-  Json json = Json::object();
-  for (const auto& [name, path] : pictures) json[name] = path;
-  return json;
-}
-
-Json lightJson(const Light& light, const MediaLightSource& source) {
-  Json json = {{"name", light.name},
-               {"type", light.type == LightType::Spot ? "spot" : "point"},
-               {"position", vectorJson(light.positionW)},
-               {"intensity", vectorJson(source.intensity)}};
+LightFacts lightFacts(const Light& light, const MediaLightSource& source) {
+  LightFacts facts{.name = light.name,
+                   .type = light.type == LightType::Spot ? "spot" : "point",
+                   .position = light.positionW,
+                   .intensity = source.intensity};
   if (light.type == LightType::Spot) {
-    json["direction"] = vectorJson(glm::vec3(source.coneAxisW));
-    json["cone_degrees"] = shortest(static_cast<float>(2.0 * glm::degrees(std::acos(source.coneCos))));
+    facts.direction = glm::vec3(source.coneAxisW);
+    facts.coneDegrees = static_cast<float>(2.0 * glm::degrees(std::acos(source.coneCos)));
   }
-  return json;
+  return facts;
 }
 
-Json mediumJson(const FogView& view) {
-  Json density = nullptr;
+MediumFacts mediumFacts(const FogView& view) {
+  MediumFacts facts{
+      .sigmaS = view.medium.sigmaS, .sigmaA = view.medium.sigmaA, .g = view.medium.g, .reach = view.medium.reach};
   if (view.density)
-    density = {{"grid", view.density->gridName()},
-               {"lower", vectorJson(view.density->boundsW().lower)},
-               {"upper", vectorJson(view.density->boundsW().upper)},
-               {"voxel_metres", shortest(static_cast<float>(view.density->voxelMetres()))},
-               {"voxels", view.density->activeVoxels()}};
-  return {{"sigma_s", vectorJson(view.medium.sigmaS)},
-          {"sigma_a", vectorJson(view.medium.sigmaA)},
-          {"g", shortest(view.medium.g)},
-          {"reach", shortest(view.medium.reach)},
-          {"density", density}};
+    facts.density = {.grid = view.density->gridName(),
+                     .lower = glm::vec3(view.density->boundsW().lower),
+                     .upper = glm::vec3(view.density->boundsW().upper),
+                     .voxelMetres = static_cast<float>(view.density->voxelMetres()),
+                     .voxels = view.density->activeVoxels()};
+  return facts;
 }
 
-Json referenceJson(const FogResult& result) {
-  if (!result.reference) return nullptr;
+ReferenceFacts referenceFacts(const FogResult& result) {
   const MediaReference& reference = *result.reference;
-  return {{"mean", reference.mean},
-          {"bound", reference.bound},
-          {"worst_change", reference.worstChange},
-          {"pixels_at_limit", reference.atLimit},
-          {"doublings", reference.doublings},
-          {"rays", reference.rays},
-          {"trace_ms", reference.ms},
-          {"from_cache", result.referenceFromCache},
-          {"pictures", picturesJson(result.pictures)}};
-}
-
-Json rowJson(const MediaRow& row, const FogOptions& options, const FogResult& result) {
-  Json params = {{"map_size", row.mapSize}, {"lights", result.view.lights.size()}};
-  if (row.method.integrator != Integrator::March) {
-    params["vsv_source"] = volumeSourceName(options.map.volumeSource);
-    params["vsv_fit"] = volumeFitName(options.map.volumeFit);
-    if (options.map.volumeSource == VolumeSource::Resample) params["cube_size"] = options.mapSide;
-  }
-  params["cull"] = cullModeName(options.cull);
-  return {{"integrator", integratorName(row.method.integrator)},
-          {"steps", row.method.steps > 0 ? Json(row.method.steps) : Json(nullptr)},
-          {"map", row.map},
-          {"params", params},
-          {"rel_rmse", optionalJson(row.relRmse)},
-          {"rel_rmse_99", optionalJson(row.relRmse99)},
-          {"flip", optionalJson(row.flip)},
-          {"flicker", optionalJson(row.flicker)},
-          {"map_ms", row.mapMs},
-          {"table_ms", row.tableMs},
-          {"build_ms", row.buildMs()},
-          {"integrate_ms", row.integrateMs},
-          {"pictures", picturesJson(row.pictures)}};
-}
-
-Json factorJson(const Factor& factor) {
-  const char* bound = factor.bound == Bound::AtLeast ? "at_least" : factor.bound == Bound::AtMost ? "at_most" : "exact";
-  return {{"factor", factor.value}, {"bound", bound}};
-}
-
-Json termsJson(const EqualTerms& terms, const FogResult& result) {
-  const MediaMethod& method = result.rows[terms.row].method;
-  return {{"integrator", integratorName(method.integrator)},
-          {"steps", method.steps > 0 ? Json(method.steps) : Json(nullptr)},
-          {"against", "march"},
-          {"with_build", terms.withBuild},
-          {"measure", errorMeasureName(terms.measure)},
-          {"faster_at_equal_error", factorJson(terms.faster)},
-          {"less_error_at_equal_time", factorJson(terms.better)}};
+  return {.mean = reference.mean,
+          .bound = reference.bound,
+          .worstChange = reference.worstChange,
+          .atLimit = reference.atLimit,
+          .doublings = reference.doublings,
+          .rays = reference.rays,
+          .traceMs = reference.ms,
+          .fromCache = result.referenceFromCache,
+          .pictures = result.pictures};
 }
 
 }  // namespace
@@ -184,17 +121,11 @@ std::string fogTable(const Session& session, const FogOptions&, const FogResult&
         view.density->boundsW().lower.x, view.density->boundsW().lower.y, view.density->boundsW().lower.z,
         view.density->boundsW().upper.x, view.density->boundsW().upper.y, view.density->boundsW().upper.z);
   if (result.reference) text += fmt::format("reference: {}\n", referenceText(result));
-  const bool flickers = std::ranges::any_of(result.rows, [](const MediaRow& row) { return row.flicker.has_value(); });
-  text += fmt::format("{:<13}{:<22}{:>10}{:>10}{:>10}{:>10}{:>10}{:>14}{:>10}{}\n", "integrator", "map", "rel rmse",
-                      "rmse 99%", "flip", "map ms", "table ms", "integrate ms", "all ms", flickers ? "   flicker" : "");
-  for (const MediaRow& row : result.rows) {
-    text +=
-        fmt::format("{:<13}{:<22}{:>10}{:>10}{:>10}{:>10.2f}{:>10.2f}{:>14.2f}{:>10.2f}", mediaMethodName(row.method),
-                    row.map + " " + row.mapSize, shareText(row.relRmse), shareText(row.relRmse99), shareText(row.flip),
-                    row.mapMs, row.tableMs, row.integrateMs, row.totalMs());
-    if (flickers) text += fmt::format("{:>10}", shareText(row.flicker));
-    text += "\n";
-  }
+  const DeclaredColumns<MediaRow> columns(result.rows);
+  text += fmt::format("{:<13}{:<22}{}\n", "integrator", "map", columns.head());
+  for (const MediaRow& row : result.rows)
+    text += fmt::format("{:<13}{:<22}{}\n", row.name(), row.map + " " + paramText(row.params, "map_size"),
+                        columns.line(row));
   text += termsText(result);
   if (!result.motionNote.empty()) text += result.motionNote + "\n";
   return text;
@@ -202,26 +133,22 @@ std::string fogTable(const Session& session, const FogOptions&, const FogResult&
 
 std::string fogJson(const Session& session, const FogOptions& options, const FogResult& result,
                     const std::string& command) {
-  Json json = resultsHead(session, session.setup(), command, result.gbufferMs);
-  json["lights"] = Json::array();
+  MediaResults file;
+  static_cast<ResultsHead&>(file) = resultsHead(session, command, result.gbufferMs);
   for (size_t i = 0; i < result.view.lights.size(); ++i)
-    json["lights"].push_back(lightJson(result.view.lights[i], result.view.sources[i]));
-  json["medium"] = mediumJson(result.view);
-  json["exposure"] = result.exposure.factor;
-  json["reference"] = referenceJson(result);
-  json["worst_place"] =
-      result.worst ? Json{{"x", result.worst->x}, {"y", result.worst->y}, {"size", result.worst->size}} : Json(nullptr);
-  json["frames"] = options.motion ? Json{{"count", options.motion->frames},
-                                         {"moves", options.motion->camera ? "camera" : "light"},
-                                         {"offset", vectorJson(options.motion->offsetW)},
-                                         {"note", result.motionNote}}
-                                  : Json(nullptr);
-  json["truths"] = json["maps"] = json["rows"] = Json::array();  // of gnomon compare
-  json["media"] = Json::array();
-  for (const MediaRow& row : result.rows) json["media"].push_back(rowJson(row, options, result));
-  json["equal_terms"] = Json::array();
-  for (const EqualTerms& terms : result.equalTerms) json["equal_terms"].push_back(termsJson(terms, result));
-  return json.dump(2) + "\n";
+    file.lights.push_back(lightFacts(result.view.lights[i], result.view.sources[i]));
+  file.medium = mediumFacts(result.view);
+  file.exposure = static_cast<double>(result.exposure.factor);
+  if (result.reference) file.reference = referenceFacts(result);
+  file.worst = result.worst;
+  if (options.motion)
+    file.frames = {.count = options.motion->frames,
+                   .moves = options.motion->camera ? "camera" : "light",
+                   .offset = options.motion->offsetW,
+                   .note = result.motionNote};
+  file.rows = result.rows;
+  file.equalTerms = result.equalTerms;
+  return resultsText(file);
 }
 
 }  // namespace gnomon

@@ -41,7 +41,7 @@ MediaLight exactLight(const MediaLightSource& source) {
 
 // What the light of each pixel's surface passes through on its way, to the metre of density 1.
 template <typename Path>
-std::vector<double> pathsOf(const Exact& exact, const Path& path) {
+std::vector<double> pathsOf(const GroundTruth& exact, const Path& path) {
   std::vector<double> paths(exact.receivers.states.size(), 0.0);
   tbb::parallel_for(size_t{0}, paths.size(), [&](size_t i) {
     if (exact.receivers.states[i] != PixelState::Empty) paths[i] = path(i);
@@ -55,49 +55,45 @@ double opticalMetres(const MediumModel& medium, const glm::dvec3& fromW, const g
 }
 
 // The surfaces' own light, dimmed by what it passes through.
-void addSurfaces(const Session& session, Passes& passes, const Exact& exact, const glsl::ShadeUniforms& shade,
-                 const MediumModel& medium, const std::vector<double>& paths, ImageF& surface) {
+void addSurfaces(const SceneView& scene, ShadowPasses& passes, const GroundTruth& exact,
+                 const glsl::ShadeUniforms& shade, const MediumModel& medium, const std::vector<double>& paths,
+                 ImageF& surface) {
   const std::vector<float> visibility(exact.truth.lit.begin(), exact.truth.lit.end());
-  passes.visibility.setUniforms(shade);
-  gpu::upload(session.device(), passes.visibility.visibility(), std::as_bytes(std::span(visibility)));
-  gpu::Commands commands(session.device(), "radiance");
-  passes.radiance.record(commands, session.buffers(), session.gbuffer(), passes.visibility.uniforms(),
-                         passes.visibility.visibility());
-  commands.submitAndWait();
-  const auto radiance = gpu::downloadAs<glm::vec3>(session.device(), passes.radiance.radiance());
+  const ImageF radiance = passes.shade(scene, shade, visibility);
   const glm::dvec3 sigmaT = medium.sigmaS + medium.sigmaA;
-  for (size_t i = 0; i < radiance.size(); ++i) {
-    const glm::dvec3 dimmed = glm::dvec3(radiance[i]) * glm::exp(-sigmaT * paths[i]);
+  for (size_t i = 0; i < paths.size(); ++i) {
+    const glm::vec3 pixel(radiance.values[3 * i], radiance.values[3 * i + 1], radiance.values[3 * i + 2]);
+    const glm::dvec3 dimmed = glm::dvec3(pixel) * glm::exp(-sigmaT * paths[i]);
     for (int c = 0; c < 3; ++c) surface.values[3 * i + static_cast<size_t>(c)] += static_cast<float>(dimmed[c]);
   }
 }
 
 // With the exact shadow, so that pictures differ by their medium alone.
-ImageF surfaceLayer(const Session& session, Passes& passes, const FogView& view, float ambient,
-                    const std::vector<Exact>& exacts) {
-  ImageF surface(session.view().width, session.view().height, 3);
-  const glm::dvec3 eyeW(session.view().eyeW);
+ImageF surfaceLayer(const SceneView& scene, ShadowPasses& passes, const FogView& view, float ambient,
+                    const std::vector<GroundTruth>& exacts) {
+  ImageF surface(scene.view().width, scene.view().height, 3);
+  const glm::dvec3 eyeW(scene.view().eyeW);
   const std::vector<double> towardsEye = pathsOf(exacts.front(), [&](size_t i) {
     const glm::dvec3 towards = exacts.front().receivers.samples[i].positionW - eyeW;
     const double distance = glm::length(towards);  // the medium ends at its reach, what stands behind is seen
     return opticalMetres(view.model, eyeW, eyeW + towards * std::min(view.model.reach / distance, 1.0));
   });
   for (size_t l = 0; l < exacts.size(); ++l) {
-    const Exact& exact = exacts[l];
+    const GroundTruth& exact = exacts[l];
     const std::vector<double> bothLegs = pathsOf(exact, [&](size_t i) {
       const glm::dvec3& posW = exact.receivers.samples[i].positionW;
       return towardsEye[i] + (exact.truth.lit[i] != 0 ? opticalMetres(view.model, exact.light.positionW, posW) : 0.0);
     });
-    glsl::ShadeUniforms shade = shadeUniforms(session.view(), exact.light, {});
+    glsl::ShadeUniforms shade = shadeUniforms(scene.view(), exact.light, {});
     shade.lightColor = view.sources[l].intensity * static_cast<float>(1.0 / std::numbers::pi);  // albedo / pi
     shade.ambient = glm::vec3(0.0f);
-    addSurfaces(session, passes, exact, shade, view.model, bothLegs, surface);
+    addSurfaces(scene, passes, exact, shade, view.model, bothLegs, surface);
   }
   if (ambient > 0.0f) {
-    glsl::ShadeUniforms shade = shadeUniforms(session.view(), exacts.front().light, {});
+    glsl::ShadeUniforms shade = shadeUniforms(scene.view(), exacts.front().light, {});
     shade.lightColor = glm::vec3(0.0f);
     shade.ambient = glm::vec3(ambient);
-    addSurfaces(session, passes, exacts.front(), shade, view.model, towardsEye, surface);
+    addSurfaces(scene, passes, exacts.front(), shade, view.model, towardsEye, surface);
   }
   return surface;
 }
@@ -110,38 +106,38 @@ std::vector<Light> fogLights(const Session& session) {
   return chooseLights(session.setup(), session.tracer(), volumeParameterization());
 }
 
-FogView lookIntoFog(const Session& session, Passes& passes, const std::vector<Light>& lights, const FogMedium& medium) {
+FogView lookIntoFog(const SceneView& scene, ShadowPasses& passes, const std::vector<Light>& lights,
+                    const FogMedium& medium) {
   FogView view{.lights = lights};
-  double diagonal = static_cast<double>(computeBounds(session.scene()).diagonal());
+  double diagonal = static_cast<double>(computeBounds(scene.scene()).diagonal());
   if (medium.density) {
     diagonal = std::min(diagonal, static_cast<double>(medium.density->boundsW().diagonal()));
     view.density = medium.density;
-    view.densityBuffers = std::make_shared<const DensityBuffers>(session.device(), *medium.density);
+    view.densityBuffers = std::make_shared<const DensityBuffers>(scene.device(), *medium.density);
   }
   const glm::vec3 grey(static_cast<float>(kDefaultOpticalDepth / std::max(diagonal, 1e-6)));
   view.medium = {.sigmaS = medium.sigmaS.value_or(grey), .sigmaA = medium.sigmaA, .g = medium.g};
-  view.medium.reach =
-      medium.reach ? static_cast<float>(*medium.reach) : defaultReach(session.scene(), session.view().eyeW);
+  view.medium.reach = medium.reach ? static_cast<float>(*medium.reach) : defaultReach(scene.scene(), scene.view().eyeW);
   view.model = {.sigmaS = glm::dvec3(view.medium.sigmaS),
                 .sigmaA = glm::dvec3(view.medium.sigmaA),
                 .g = static_cast<double>(view.medium.g),
                 .reach = static_cast<double>(view.medium.reach),
                 .density = view.density.get()};
-  std::vector<Exact> exacts;
+  std::vector<GroundTruth> exacts;
   for (const Light& light : lights) {
     view.sources.push_back(mediaLight(light));
     view.exactLights.push_back(exactLight(view.sources.back()));
-    exacts.push_back(traceExact(session, light, modelOf(light)));
-    if (view.exactLights.back().positionW == glm::dvec3(session.view().eyeW))
+    exacts.push_back(traceGroundTruth(scene, light, modelOf(light)));
+    if (view.exactLights.back().positionW == glm::dvec3(scene.view().eyeW))
       throw WorldError(
           fmt::format("the light '{}' stands at the camera's eye, where its scattered light is "
                       "infinite; move one of them with --light or --camera",
                       light.name));
   }
   const Receivers& receivers = exacts.front().receivers;  // where they are does not depend on the light
-  view.ends = viewRayEnds(session.view(), receivers, view.model.reach);
-  view.receiversW = mediaReceiversW(session.view(), receivers, view.model.reach);
-  view.surface = surfaceLayer(session, passes, view, medium.ambient, exacts);
+  view.ends = viewRayEnds(scene.view(), receivers, view.model.reach);
+  view.receiversW = mediaReceiversW(scene.view(), receivers, view.model.reach);
+  view.surface = surfaceLayer(scene, passes, view, medium.ambient, exacts);
   return view;
 }
 

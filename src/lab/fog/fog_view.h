@@ -40,7 +40,8 @@ struct FogView {
 // The lights that --light names: point and spot lights. Throws WorldError.
 std::vector<Light> fogLights(const Session& session);
 
-FogView lookIntoFog(const Session& session, Passes& passes, const std::vector<Light>& lights, const FogMedium& medium);
+FogView lookIntoFog(const SceneView& scene, ShadowPasses& passes, const std::vector<Light>& lights,
+                    const FogMedium& medium);
 
 // How radiance becomes a picture: the same factor for all pictures of a run.
 struct FogExposure {

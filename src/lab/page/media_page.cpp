@@ -2,10 +2,10 @@
 
 #include "base/check.h"
 #include "lab/page/report_page.h"
+#include "lab/page/report_text.h"
 #include "lab/page/report_views.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -13,82 +13,64 @@ namespace gnomon {
 
 namespace {
 
-std::string raw(double value) {
-  return fmt::format("{}", value);
+// "0.04" where it is grey, else "0.01, 0.02, 0.04".
+std::string spectrumText(const glm::vec3& v) {
+  return v.x == v.y && v.x == v.z ? shortNumber(shortest(v.x)) : vectorText(v);
 }
 
-// Three digits: errors here run from 0.1 % to many times the mean.
-std::string share(double fraction) {
-  return fmt::format("{:.3g}\u202f%", 100.0 * fraction);
+std::string factorText(const Factor& factor) {
+  const char* sign = factor.bound == Bound::AtLeast ? "≥ " : factor.bound == Bound::AtMost ? "≤ " : "";
+  return fmt::format("{}{:.3g}", sign, factor.value);
 }
 
-void setNumber(View& view, const std::string& name, const std::optional<double>& value, const std::string& text) {
-  view.set(name, value ? text : "–");
-  view.set(name + "Raw", value ? raw(*value) : "");
+bool hasErrors(const MediaResults& media) {
+  return std::ranges::any_of(media.rows, [](const MediaRow& row) { return row.relRmse.has_value(); });
 }
 
-std::string factorText(const MediaDataFactor& factor) {
-  const char* sign = factor.bound == "at_least" ? "≥ " : factor.bound == "at_most" ? "≤ " : "";
-  return fmt::format("{}{:.3g}", sign, factor.factor);
-}
-
-const MediaDataTerms* findTerms(const MediaData& media, const std::string& method, bool withBuild,
-                                const char* measure) {
-  for (const MediaDataTerms& terms : media.terms)
-    if (terms.method == method && terms.withBuild == withBuild && terms.measure == measure) return &terms;
-  return nullptr;
-}
-
-View pair(const std::string& key, const std::string& value) {
-  View view;
+TemplateData pair(const std::string& key, const std::string& value) {
+  TemplateData view;
   view.set("key", key);
   view.set("value", value);
   return view;
 }
 
-View paramViews(const MediaDataRow& row) {
-  View list = viewList();
+TemplateData paramViews(const MediaRow& row) {
+  TemplateData list = viewList();
   list.push_back(pair("map", row.map));
   if (row.steps) list.push_back(pair("steps", std::to_string(*row.steps)));
-  for (const ReportParam& param : row.params) list.push_back(pair(param.name, param.text));
+  for (const Param& param : row.params) list.push_back(pair(param.name, paramText(param)));
   return list;
 }
 
 // Medium first: it is what the methods differ in.
-View stockViews(const MediaDataRow& row, ReportPictureShelf& shelf) {
-  ReportPictures pictures;
+TemplateData stockViews(const MediaRow& row, ReportPictureShelf& shelf) {
+  Pictures pictures;
   for (const char* kind : {"medium", "beauty", "difference"})
     for (const auto& [name, path] : row.pictures)
       if (name == kind) pictures.emplace_back(name, path);
   return pictureViews(pictures, shelf);
 }
 
-View rowView(const MediaDataRow& row, size_t rank, const MediaData& media, const ReportData& data,
-             ReportPictureShelf& shelf) {
-  View view;
+TemplateData rowView(const MediaRow& row, size_t rank, const MediaResults& media, const PageColumns<MediaRow>& columns,
+                     ReportPictureShelf& shelf) {
+  TemplateData view;
   view.set("id", rowId(rank));
   view.set("rank", std::to_string(rank));
   view.set("open", rank == 1);
   view.set("name", row.name());
   view.set("map", row.map);
-  for (const auto& [name, value] :
-       {std::pair{"relRmse", row.relRmse}, {"relRmse99", row.relRmse99}, {"flicker", row.flicker}})
-    setNumber(view, name, value, share(value.value_or(0.0)));
-  setNumber(view, "flip", row.flip, fmt::format("{:.4f}", row.flip.value_or(0.0)));
-  for (const auto& [name, ms] : {std::pair{"mapMs", row.mapMs},
-                                 {"tableMs", row.tableMs},
-                                 {"integrateMs", row.integrateMs},
-                                 {"totalMs", row.totalMs()}})
-    setNumber(view, name, ms, fmt::format("{:.2f}", ms));
-  view.set("width", std::to_string(data.width));
-  view.set("height", std::to_string(data.height));
+  view.set("score", hasErrors(media) ? cellText({.kind = NumberKind::Error}, row.relRmse)
+                                     : fmt::format("{:.2f} ms", row.totalMs()));
+  view.set("cells", columns.cells(row));
+  view.set("width", std::to_string(media.camera.width));
+  view.set("height", std::to_string(media.camera.height));
   const auto reference = [&](const char* name, const char* kind) {
     const std::string id = media.reference ? idOf(media.reference->pictures, kind, shelf) : "";
-    view.set(name, id.empty() ? View(false) : View(id));
+    view.set(name, id.empty() ? TemplateData(false) : TemplateData(id));
   };
   reference("exactMedium", "medium");
   reference("exactBeauty", "beauty");
-  const View pictures = stockViews(row, shelf);
+  const TemplateData pictures = stockViews(row, shelf);
   view.set("pictures", pictures);
   view.set("hasPictures", pictures.is_non_empty_list());
   view.set("params", paramViews(row));
@@ -96,17 +78,17 @@ View rowView(const MediaDataRow& row, size_t rank, const MediaData& media, const
 }
 
 // One line a method, with and without its builds.
-View termsViews(const MediaData& media) {
-  View list = viewList();
-  for (const MediaDataRow& row : media.rows) {
+TemplateData termsViews(const MediaResults& media) {
+  TemplateData list = viewList();
+  for (const MediaRow& row : media.rows) {
     for (const bool withBuild : {true, false}) {
-      View view;
+      TemplateData view;
       view.set("method", row.name());
       view.set("counts", withBuild ? "map, table and integral" : "the integral alone");
       bool any = false;
       for (const auto& [measure, faster, better] :
-           {std::tuple{"rel_rmse", "faster", "better"}, {"rel_rmse_99", "faster99", "better99"}}) {
-        const MediaDataTerms* terms = findTerms(media, row.name(), withBuild, measure);
+           {std::tuple{ErrorMeasure::RelRmse, "faster", "better"}, {ErrorMeasure::RelRmse99, "faster99", "better99"}}) {
+        const EqualTerms* terms = findTerms(media.equalTerms, row.name(), withBuild, measure);
         view.set(faster, terms != nullptr ? factorText(terms->faster) : "–");
         view.set(better, terms != nullptr ? factorText(terms->better) : "–");
         any = any || terms != nullptr;
@@ -123,44 +105,44 @@ struct PlottedRow {
   PlotItem item;
 };
 
-std::vector<PlottedRow> plottedRows(const MediaData& media, std::optional<double> MediaDataRow::*error) {
+std::vector<PlottedRow> plottedRows(const MediaResults& media, std::optional<double> MediaRow::*error) {
   std::vector<PlottedRow> rows;
   for (size_t i = 0; i < media.rows.size(); ++i)
-    if (const MediaDataRow& row = media.rows[i]; row.*error && row.totalMs() > 0.0)
+    if (const MediaRow& row = media.rows[i]; row.*error && row.totalMs() > 0.0)
       rows.push_back({i, {row.name(), row.totalMs(), *(row.*error)}});
   return rows;
 }
 
-// The march's marks, joined: one method at growing cost.
-std::string marchPath(const MediaData& media, const std::vector<PlottedRow>& rows, const Plot& plot) {
+// The baseline's marks, joined: one method at growing cost.
+std::string baselinePath(const MediaResults& media, const std::vector<PlottedRow>& rows, const Plot& plot) {
   std::string path;
   size_t joined = 0;
   for (size_t i = 0; i < rows.size(); ++i) {
-    if (media.rows[rows[i].row].integrator != "march") continue;
+    if (!media.rows[rows[i].row].isBaseline) continue;
     path += fmt::format("{}{:.1f} {:.1f}", joined++ == 0 ? "M" : "L", plot.marks[i].x, plot.marks[i].y);
   }
   return joined < 2 ? "" : path;
 }
 
-View plotView(const MediaData& media, const char* size, double width, double height,
-              std::optional<double> MediaDataRow::*error) {
+TemplateData plotView(const MediaResults& media, const char* size, double width, double height,
+                      std::optional<double> MediaRow::*error) {
   const std::vector<PlottedRow> rows = plottedRows(media, error);
   std::vector<PlotItem> items;
   for (const PlottedRow& row : rows) items.push_back(row.item);
   const Plot plot = layOutPlot(items, width, height, CostAxis::Logarithmic);
-  View view;
+  TemplateData view;
   setPlotFrame(view, plot, size);
-  const std::string path = marchPath(media, rows, plot);
-  view.set("march", path.empty() ? View(false) : View(path));
-  View marks = viewList();
+  const std::string path = baselinePath(media, rows, plot);
+  view.set("march", path.empty() ? TemplateData(false) : TemplateData(path));
+  TemplateData marks = viewList();
   for (size_t i = 0; i < rows.size(); ++i) {
     const PlotMark& mark = plot.marks[i];
-    View item;
+    TemplateData item;
     item.set("id", rowId(rows[i].row + 1));
     item.set("label", rows[i].item.label);
-    item.set("title",
-             fmt::format("{}: {} in {:.2f} ms", rows[i].item.label, share(rows[i].item.error), rows[i].item.costMs));
-    item.set("shape", media.rows[rows[i].row].integrator == "march" ? "1" : "0");
+    item.set("title", fmt::format("{}: {} in {:.2f} ms", rows[i].item.label, errorText(rows[i].item.error),
+                                  rows[i].item.costMs));
+    item.set("shape", media.rows[rows[i].row].isBaseline ? "1" : "0");
     item.set("x", coordinate(mark.x));
     item.set("y", coordinate(mark.y));
     item.set("labelX", coordinate(mark.labelX));
@@ -174,11 +156,11 @@ View plotView(const MediaData& media, const char* size, double width, double hei
   return view;
 }
 
-View plotViews(const MediaData& media) {
-  View list = viewList();
-  for (const auto& [title, error] : {std::pair{"All pixels", &MediaDataRow::relRmse},
-                                     {"The 99 % of the pixels that err least", &MediaDataRow::relRmse99}}) {
-    View view, sizes = viewList();
+TemplateData plotViews(const MediaResults& media) {
+  TemplateData list = viewList();
+  for (const auto& [title, error] :
+       {std::pair{"All pixels", &MediaRow::relRmse}, {"The 99 % of the pixels that err least", &MediaRow::relRmse99}}) {
+    TemplateData view, sizes = viewList();
     view.set("title", title);
     sizes.push_back(plotView(media, "wide", 980.0, 400.0, error));
     sizes.push_back(plotView(media, "narrow", 368.0, 380.0, error));
@@ -188,15 +170,15 @@ View plotViews(const MediaData& media) {
   return list;
 }
 
-View edgeViews(const MediaData& media, ReportPictureShelf& shelf) {
-  View list = viewList();
-  for (const MediaDataRow& row : media.rows) {
-    ReportPictures crops;
+TemplateData edgeViews(const MediaResults& media, ReportPictureShelf& shelf) {
+  TemplateData list = viewList();
+  for (const MediaRow& row : media.rows) {
+    Pictures crops;
     for (const auto& [kind, path] : row.pictures)
       if (kind == "crop") crops.emplace_back(kind, path);
-    const View pictures = pictureViews(crops, shelf);
+    const TemplateData pictures = pictureViews(crops, shelf);
     if (!pictures.is_non_empty_list()) continue;
-    View view;
+    TemplateData view;
     view.set("name", row.name());
     view.set("pictures", pictures);
     list.push_back(view);
@@ -204,18 +186,18 @@ View edgeViews(const MediaData& media, ReportPictureShelf& shelf) {
   return list;
 }
 
-void setReference(View& page, const MediaData& media, const ReportData& data) {
+void setReference(TemplateData& page, const MediaResults& media) {
   if (!media.reference) {
     page.set("reference", false);
     return;
   }
-  const MediaDataReference& reference = *media.reference;
-  const double pixels = static_cast<double>(data.width) * static_cast<double>(data.height);
-  View view;
+  const ReferenceFacts& reference = *media.reference;
+  const double pixels = static_cast<double>(media.camera.width) * static_cast<double>(media.camera.height);
+  TemplateData view;
   view.set("mean", shortNumber(reference.mean));
-  view.set("bound", share(reference.bound));
-  view.set("worstChange", share(reference.worstChange));
-  view.set("atLimit", reference.atLimit == 0 ? View(false) : View(grouped(reference.atLimit)));
+  view.set("bound", errorText(reference.bound));
+  view.set("worstChange", errorText(reference.worstChange));
+  view.set("atLimit", reference.atLimit == 0 ? TemplateData(false) : TemplateData(grouped(reference.atLimit)));
   view.set("raysPerPixel", grouped(static_cast<uint64_t>(static_cast<double>(reference.rays) / pixels + 0.5)));
   view.set("doublings", std::to_string(reference.doublings));
   view.set("seconds", shortNumber(reference.traceMs / 1000.0));
@@ -223,66 +205,83 @@ void setReference(View& page, const MediaData& media, const ReportData& data) {
 }
 
 // "runs errs by 0.47 % ...": of the first row.
-void setLead(View& page, const MediaData& media) {
-  const MediaDataRow& first = media.rows.front();
-  const MediaDataTerms* terms = findTerms(media, first.name(), true, "rel_rmse_99");
+void setLead(TemplateData& page, const MediaResults& media) {
+  const MediaRow& first = media.rows.front();
+  const EqualTerms* terms = findTerms(media.equalTerms, first.name(), true, ErrorMeasure::RelRmse99);
   page.set("leadName", first.name());
   page.set("leadId", rowId(1));
-  page.set("leadError", first.relRmse ? View(share(*first.relRmse)) : View(false));
+  page.set("leadError", first.relRmse ? TemplateData(errorText(*first.relRmse)) : TemplateData(false));
   // A bound says something where it lies on the side it bounds.
-  const auto tells = [](const MediaDataFactor& factor) {
-    return factor.bound == "exact" || (factor.factor >= 1.0) == (factor.bound == "at_least");
+  const auto tells = [](const Factor& factor) {
+    return factor.bound == Bound::Exact || (factor.value >= 1.0) == (factor.bound == Bound::AtLeast);
   };
   const bool both = terms != nullptr && tells(terms->faster) && tells(terms->better);
-  page.set("leadFaster", both ? View(factorText(terms->faster)) : View(false));
-  page.set("leadBetter", both ? View(factorText(terms->better)) : View(false));
+  page.set("leadFaster", both ? TemplateData(factorText(terms->faster)) : TemplateData(false));
+  page.set("leadBetter", both ? TemplateData(factorText(terms->better)) : TemplateData(false));
+}
+
+void setMedium(TemplateData& page, const MediaResults& media) {
+  TemplateData lights = viewList();
+  for (const LightFacts& light : media.lights)
+    lights.push_back(TemplateData(
+        fmt::format("{}, {} cd", lightText(light), spectrumText(light.intensity.value_or(glm::vec3(0.0f))))));
+  page.set("lights", lights);
+  page.set("medium", fmt::format("σs {} and σa {} per metre, g {:.3g}, view rays end at {:.4g} m",
+                                 spectrumText(media.medium.sigmaS), spectrumText(media.medium.sigmaA),
+                                 shortest(media.medium.g), shortest(media.medium.reach)));
+}
+
+void setRows(TemplateData& page, const MediaResults& media, ReportPictureShelf& shelf) {
+  const PageColumns<MediaRow> columns(media.rows);
+  TemplateData rows = viewList();
+  for (size_t i = 0; i < media.rows.size(); ++i) rows.push_back(rowView(media.rows[i], i + 1, media, columns, shelf));
+  page.set("columns", columns.heads());
+  page.set("rows", rows);
+  page.set("hasErrors", hasErrors(media));
+  page.set("hasFlicker", std::ranges::any_of(media.rows, [](const MediaRow& row) { return row.flicker.has_value(); }));
+}
+
+void setEdges(TemplateData& page, const MediaResults& media, ReportPictureShelf& shelf) {
+  const TemplateData edges = edgeViews(media, shelf);
+  page.set("edges", edges);
+  page.set("hasEdges", edges.is_non_empty_list());
+  if (const std::optional<WorstPlace>& worst = media.worst)
+    page.set("edgePlace", fmt::format("the square of {} pixels at {}, {}", worst->size, worst->x, worst->y));
+}
+
+void setFrames(TemplateData& page, const std::optional<FramesFacts>& frames) {
+  if (!frames) {
+    page.set("frames", false);
+    return;
+  }
+  TemplateData view;
+  view.set("count", grouped(static_cast<uint64_t>(frames->count)));
+  view.set("moves", frames->moves);
+  view.set("offset", vectorText(frames->offset));
+  view.set("note", frames->note);
+  page.set("frames", view);
 }
 
 }  // namespace
 
-std::string mediaHtml(const std::filesystem::path& folder, const ReportData& data) {
-  const MediaData& media = *data.media;
+std::string mediaHtml(const std::filesystem::path& folder, const MediaResults& media) {
   GNOMON_CHECK(!media.rows.empty());
   ReportPictureShelf shelf(folder);
-  View page;
+  TemplateData page;
   page.set("css", kPageCss);
   page.set("js", kPageJs);
-  setFacts(page, data);
+  setFacts(page, media);
   setLead(page, media);
-  View lights = viewList();
-  for (const std::string& light : media.lights) lights.push_back(View(light));
-  page.set("lights", lights);
-  page.set("medium", fmt::format("σs {} and σa {} per metre, g {:.3g}, view rays end at {:.4g} m", media.sigmaS,
-                                 media.sigmaA, media.g, media.reach));
-  setReference(page, media, data);
-  const View reference = media.reference ? pictureViews(media.reference->pictures, shelf) : viewList();
-  page.set("referencePictures", reference);
-  View rows = viewList();
-  for (size_t i = 0; i < media.rows.size(); ++i) rows.push_back(rowView(media.rows[i], i + 1, media, data, shelf));
-  page.set("rows", rows);
-  const auto any = [&](std::optional<double> MediaDataRow::*value) {
-    return std::ranges::any_of(media.rows, [&](const MediaDataRow& row) { return (row.*value).has_value(); });
-  };
-  page.set("hasErrors", any(&MediaDataRow::relRmse));
-  page.set("hasFlicker", any(&MediaDataRow::flicker));
-  const View terms = termsViews(media);
+  setMedium(page, media);
+  setReference(page, media);
+  page.set("referencePictures", media.reference ? pictureViews(media.reference->pictures, shelf) : viewList());
+  setRows(page, media, shelf);
+  const TemplateData terms = termsViews(media);
   page.set("terms", terms);
   page.set("hasTerms", terms.is_non_empty_list());
   page.set("plots", plotViews(media));
-  const View edges = edgeViews(media, shelf);
-  page.set("edges", edges);
-  page.set("hasEdges", edges.is_non_empty_list());
-  if (media.worst)
-    page.set("edgePlace",
-             fmt::format("the square of {} pixels at {}, {}", media.worst->size, media.worst->x, media.worst->y));
-  View frames;
-  if (media.frames) {
-    frames.set("count", grouped(media.frames->count));
-    frames.set("moves", media.frames->moves);
-    frames.set("offset", media.frames->offset);
-    frames.set("note", media.frames->note);
-  }
-  page.set("frames", media.frames ? frames : View(false));
+  setEdges(page, media, shelf);
+  setFrames(page, media.frames);
   setMissing(page, shelf);
   kainjow::mustache::mustache pageTemplate{std::string(kMediaHtml)};
   GNOMON_CHECK(pageTemplate.is_valid());

@@ -1,13 +1,13 @@
 #pragma once
 // The page of a medium: its table, error against time, the shafts' edges, every picture.
 
-#include "lab/page/media_data.h"
+#include "lab/results/media_results.h"
 
 #include <filesystem>
 
 namespace gnomon {
 
-// `data.media` is there.
-std::string mediaHtml(const std::filesystem::path& folder, const ReportData& data);
+// `media` has a row.
+std::string mediaHtml(const std::filesystem::path& folder, const MediaResults& media);
 
 }  // namespace gnomon

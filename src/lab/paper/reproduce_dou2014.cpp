@@ -4,10 +4,11 @@
 
 #include "base/error.h"
 #include "lab/compare/tune.h"
-#include "lab/core/map_set.h"
 #include "lab/core/maps.h"
 #include "lab/paper/errata/errata.h"
+#include "planar/planar_map.h"
 #include "shadow/user_bias.h"
+#include "vsv/volume_parameterization.h"
 
 #include <algorithm>
 #include <array>
@@ -55,23 +56,17 @@ void interior(PaperRun& run, const char* id, const char* camera) {
 class View {
  public:
   View(const Session& session, const Parameterization& map, int side)
-      : session_(session),
-        passes_(session.device(), session.view()),
-        exact_(computeExact(session, map)),
-        maps_(session, passes_.renderers, fitMap(session, map, exact_, side, {}).fitted, exact_, CullMode::Solids),
-        trial_(session, passes_, exact_, maps_) {}
+      : passes_(session), lit_(openLight(session, passes_, map, {.side = side})), evaluator_(lit_) {}
   double errorOf(const KnobValue& knob, const BiasMethod& bias) {
     CompareOptions options;
     options.knobs = {knob};
-    return static_cast<double>(trial_.biasErrors(methodFor(session_, options, bias))) / trial_.scored();
+    return static_cast<double>(evaluator_.biasErrors(methodFor(lit_.view(), options, bias))) / evaluator_.scored();
   }
 
  private:
-  const Session& session_;
-  Passes passes_;
-  Exact exact_;
-  MapSet maps_;
-  Trial trial_;
+  ShadowPasses passes_;
+  LightOnMap lit_;
+  TuningEvaluator evaluator_;
 };
 
 constexpr double kSharedStep = 1.5;  // between the values that are tried
@@ -148,9 +143,7 @@ void figure7(PaperRun& run) {
 CompareOptions volumeOf(const PaperRun& run, const VolumeSize& size, VolumeSource source, VolumeFit fit,
                         const char* biases) {
   CompareOptions options = mapOf(run, "vsv", 1024, biases);
-  options.mapOptions.volumeSize = run.scaled(size);
-  options.mapOptions.volumeSource = source;
-  options.mapOptions.volumeFit = fit;
+  options.mapOptions = {kVolumeSize(run.scaled(size)), kVolumeSource(source), kVolumeFit(fit)};
   return options;
 }
 
@@ -186,22 +179,18 @@ void figure9(PaperRun& run) {
   figure.panel("left", row, "adaptive: visibility alone", "Noise, from shifting too far.", "visibility");
   figure.panel("center", row, "adaptive: shaded", "The noise is invisible under Lambertian shading.", "beauty");
 
-  const Parameterization& map = *parseMaps("directional").front();
-  const Exact exact = computeExact(session, map);
-  Passes passes(session.device(), session.view());
-  MapSet maps(session, passes.renderers, fitMap(session, map, exact, options.mapSide, {}).fitted, exact,
-              CullMode::Solids);
-  const Judged judged =
-      judge(session, passes, maps.with(MapContent::OneLayer), exact, methodFor(session, {}, findBias("adaptive")));
+  ShadowPasses passes(session);
+  LightOnMap lit = openLight(session, passes, *parseMaps("directional").front(), {.side = options.mapSide});
+  const LabelledResult judged = lit.judge(atDefaults(findBias("adaptive"), session));
   double wrongCount = 0.0, wrongCosine = 0.0, edgeOn = 0.0, litCount = 0.0, litCosine = 0.0;
   for (size_t i = 0; i < judged.labels.labels.size(); ++i) {
-    if (exact.receivers.states[i] != PixelState::Scored) continue;
-    const SurfaceSample& sample = exact.receivers.samples[i];
-    const glm::dvec3 toLight = exact.light.type == LightType::Directional
-                                   ? -exact.light.directionW
-                                   : glm::normalize(exact.light.positionW - sample.positionW);
+    if (lit.receivers().states[i] != PixelState::Scored) continue;
+    const SurfaceSample& sample = lit.receivers().samples[i];
+    const glm::dvec3 toLight = lit.light().type == LightType::Directional
+                                   ? -lit.light().directionW
+                                   : glm::normalize(lit.light().positionW - sample.positionW);
     const double cosine = glm::dot(sample.normalW, toLight);
-    if (exact.truth.lit[i] != 0) litCount += 1.0, litCosine += cosine;
+    if (lit.truth().lit[i] != 0) litCount += 1.0, litCosine += cosine;
     const Label label = judged.labels.labels[i];
     if (label != Label::Acne && label != Label::Leak) continue;
     wrongCount += 1.0;
@@ -222,7 +211,8 @@ void figure12(PaperRun& run) {
   FigureRun figure(run, "12", "A map too coarse for planes");
   for (const int side : {1024, 512}) {
     CompareOptions options = mapOf(run, "directional", side, "none,adaptive");
-    options.mapOptions.fit = WindowFit::None;  // the paper's light is far from the object, and the map holds all
+    options.mapOptions.set(
+        kWindowFit(WindowFit::None));  // the paper's light is far from the object, and the map holds all
     const Comparison all = figure.compare(fmt::format("{}", side), options);
     figure.panel(fmt::format("{}", side), rowOf(all, "adaptive"), fmt::format("adaptive, {} texels a side", side),
                  side == 1024 ? "Most false shadows are gone."

@@ -1,4 +1,3 @@
-#include "lab/core/map_set.h"
 #include "lab/core/maps.h"
 #include "lab/paper/errata/errata.h"
 #include "lab/paper/reproduce_dou2014.h"
@@ -17,41 +16,33 @@ constexpr int kPictureSide = 512, kCubeSide = 512, kParaboloidSide = 887,
 class Counter {
  public:
   Counter(const Session& session, const char* map, int side)
-      : session_(session),
-        map_(*parseMaps(map).front()),
-        side_(side),
-        passes_(session.device(), session.view()),
-        exact_(computeExact(session, map_)),
-        maps_(session, passes_.renderers, fitMap(session, map_, exact_, side, {}).fitted, exact_, CullMode::Solids) {}
+      : passes_(session), lit_(openLight(session, passes_, *parseMaps(map).front(), {.side = side})) {}
 
   struct Counts {
     size_t wrong = 0, acne = 0, leak = 0;
   };
   Counts count(const Method& method) {
-    const Judged judged = judge(session_, passes_, maps_.with(method.bias->content), exact_, method);
-    return {.wrong = exact_.receivers.scored - judged.labels.count(Label::Agree),
+    const LabelledResult judged = lit_.judge(method);
+    return {.wrong = lit_.receivers().scored - judged.labels.count(Label::Agree),
             .acne = judged.labels.count(Label::Acne),
             .leak = judged.labels.count(Label::Leak)};
   }
   Counts count(const char* bias, int epsilonAt = glsl::kEpsilonAtOccluder) {
-    return count(methodFor(session_, {.epsilonAt = epsilonAt}, findBias(bias)));
+    return count(methodFor(lit_.view(), {.epsilonAt = epsilonAt}, findBias(bias)));
   }
   Counts countPrinted(const char* name, const char* glsl) {
     const std::unique_ptr<const UserBias> bias = readUserBias(name, glsl);
-    return count(methodFor(session_, {}, bias->method));
+    return count(methodFor(lit_.view(), {}, bias->method));
   }
   std::string describe() const {
-    return fmt::format("{} of {} texels a side, {} scored pixels", map_.name(), side_, exact_.receivers.scored);
+    return fmt::format("{} of {} texels a side, {} scored pixels", lit_.parameterization().name(), lit_.setup().side,
+                       lit_.receivers().scored);
   }
-  const glsl::ShadowMap& shape() const { return maps_.fitted().map; }
+  const glsl::ShadowMap& shape() const { return lit_.fitted().map; }
 
  private:
-  const Session& session_;
-  const Parameterization& map_;
-  const int side_;
-  Passes passes_;
-  Exact exact_;
-  MapSet maps_;
+  ShadowPasses passes_;
+  LightOnMap lit_;
 };
 
 // Equation 6 with the sign that the paper prints before b, of a depth of x = -metres.

@@ -1,7 +1,6 @@
 // Weiskopf, Ertl, "Shadow Mapping Based on Dual Depth Layers", Eurographics 2003 short papers: figures 5 to
 // 7, table 1, and what section 7 says of the offset.
 #include "lab/compare/tune.h"
-#include "lab/core/map_set.h"
 #include "lab/core/maps.h"
 #include "lab/paper/paper_run.h"
 
@@ -155,16 +154,14 @@ void table1(PaperRun& run) {
 // Section 7: how the error depends on the offset.
 void offsets(PaperRun& run) {
   const Session& session = run.open("factory", "", "", run.scaled(512));
-  const Exact exact = computeExact(session, directional());
-  Passes passes(session.device(), session.view());
-  MapSet maps(session, passes.renderers, fitMap(session, directional(), exact, run.scaled(1024), {}).fitted, exact,
-              CullMode::Solids);
-  Trial trial(session, passes, exact, maps);
-  const float diagonal = trial.sceneScale();
+  ShadowPasses passes(session);
+  LightOnMap lit = openLight(session, passes, directional(), {.side = run.scaled(1024)});
+  TuningEvaluator evaluator(lit);
+  const float diagonal = evaluator.sceneScale();
   const auto errorOf = [&](const char* bias, float share) {
     CompareOptions options;
     if (share > 0.0f) options.knobs = {knobOfScale(session, bias, share)};
-    return static_cast<double>(trial.biasErrors(methodFor(session, options, findBias(bias)))) / trial.scored();
+    return static_cast<double>(evaluator.biasErrors(methodFor(session, options, findBias(bias)))) / evaluator.scored();
   };
   PaperTable table{.id = "of offsets",
                    .title = "Section 7: bias error against the offset",

@@ -4,7 +4,6 @@
 #include "base/progress.h"
 #include "lab/picture/pictures.h"
 #include "lab/volume/volume_pictures.h"
-#include "truth/visibility.h"
 #include "vsv/volume_parameterization.h"
 
 #include <chrono>
@@ -31,18 +30,12 @@ class StopWatch {
   Clock::time_point last_ = Clock::now();
 };
 
-ShadowVolume build(const Session& session, const Passes& passes, const Exact& exact, const FittedMap& columns,
-                   CullMode cull, VolumeTimes& times) {
-  ShadowVolume volume(session.device(), {.grid = columns.map.epipolar, .columns = columns}, columns.lookedUpIn);
-  const VolumeRenderer& renderer = passes.renderers.volume;
-  // The first run compiles; the second is what it costs.
-  for (int run = 0; run < 2; ++run) {
-    gpu::Commands all(session.device(), "shadow volume");
-    renderer.record(all, passes.renderers.map, session.buffers(), volume, exact.light, cull);
-    times.build = all.submitAndWait().wallMs;
-  }
-  gpu::Commands bits(session.device(), "shadow volume's bits");
-  renderer.recordBits(bits, volume, Voxelization::Fused);
+const ShadowVolume& build(LightOnMap& lit, VolumeTimes& times) {
+  times.fit = lit.fitMs();
+  const ShadowVolume& volume = asVolume(lit.occluders());  // compiles
+  times.build = lit.redraw();
+  gpu::Commands bits(lit.view().device(), "shadow volume's bits");
+  volume.recordBits(bits, lit.passes().maps.programs(), Voxelization::Fused);
   times.bits = bits.submitAndWait().wallMs;
   return volume;
 }
@@ -65,16 +58,15 @@ VolumeValidation validate(const Session& session, const ShadowVolume& volume, co
   times.implied = watch.lap();
   const FoundBoundaries found = boundariesOf(measured);
   v.litBehind = found.litBehind;
-  v.exact = compareBoundaries(session.tracer(), volume.fitted().columns.frame, exact, found.boundaries,
-                              columnSource(volume), endMargin(session.scene()));
+  v.exact = compareBoundaries(session.tracer(), volume.fitted().frame, exact, found.boundaries, columnSource(volume),
+                              endMargin(session.scene()));
   v.exactDifference = compareGrids(grid, VolumeGrid(volumeOf(exact.boundaries)));
   times.compareExact = watch.lap();
   checkCounts(v);
   return v;
 }
 
-Pictures writePictures(const Session& session, Passes& passes, const Exact& exact, const DenseVolume& measured,
-                       const glsl::LightFrame& frame, const ColumnBoundaries& boundaries,
+Pictures writePictures(const LightOnMap& lit, const DenseVolume& measured, const ColumnBoundaries& boundaries,
                        const std::filesystem::path& outDir) {
   Pictures pictures;
   const auto write = [&](const std::string& name, const Image8& image) {
@@ -84,9 +76,8 @@ Pictures writePictures(const Session& session, Passes& passes, const Exact& exac
   for (const SliceAxis axis : {SliceAxis::Alpha, SliceAxis::Theta, SliceAxis::Phi})
     write(fmt::format("slice_{}", sliceAxisName(axis)),
           slicePicture(measured, boundaries, axis, busiestSlice(boundaries, axis)));
-  const std::vector<float> truth = truthVisibility(exact.receivers, exact.truth);
-  const Image8 camera = toSrgb8(renderRadiance(session, passes, exact, truth));
-  write("coordinates", coordinatePicture(camera, session.view(), frame, measured.grid));
+  const Image8 camera = toSrgb8(lit.radiance(truthVisibility(lit.receivers(), lit.truth())));
+  write("coordinates", coordinatePicture(camera, lit.view().view(), lit.fitted().frame, measured.grid));
   return pictures;
 }
 
@@ -102,14 +93,14 @@ bool VolumeResult::sound() const {
 VolumeResult examineVolume(const Session& session, const VolumeOptions& options) {
   const bool traces = options.validate || !options.outDir.empty();
   Progress progress("vsv", 2 + (traces ? 1 : 0) + (options.validate ? 1 : 0) + (options.vdb.empty() ? 0 : 1));
-  Passes passes(session.device(), session.view());
+  ShadowPasses passes(session);
   VolumeResult result;
   progress.step("building the volume");
-  result.exact = computeExact(session, volumeParameterization());
-  const Fit fit = fitMap(session, volumeParameterization(), result.exact, options.mapSide, options.map);
-  result.times.fit = fit.ms;
-  const ShadowVolume volume = build(session, passes, result.exact, fit.fitted, options.cull, result.times);
-  result.fitted = volume.fitted();
+  LightOnMap lit = openLight(session, passes, volumeParameterization(),
+                             {.side = options.mapSide, .options = options.map, .cull = options.cull});
+  const ShadowVolume& volume = build(lit, result.times);
+  result.columns = volume.fitted();
+  result.light = lit.source();
 
   progress.step("reading it back");
   StopWatch watch;
@@ -125,7 +116,7 @@ VolumeResult examineVolume(const Session& session, const VolumeOptions& options)
   result.gridTiles = grid.tileCount();
   result.gridLeaves = grid.leafCount();
 
-  const glsl::LightFrame& frame = result.fitted.columns.frame;
+  const glsl::LightFrame& frame = result.columns.frame;
   if (traces) {
     progress.step("tracing every column");
     watch.lap();
@@ -135,14 +126,12 @@ VolumeResult examineVolume(const Session& session, const VolumeOptions& options)
       progress.step("comparing");
       result.validation = validate(session, volume, measured, grid, exact, result.times);
     }
-    if (!options.outDir.empty())
-      result.pictures = writePictures(session, passes, result.exact, measured, frame, exact.boundaries, options.outDir);
+    if (!options.outDir.empty()) result.pictures = writePictures(lit, measured, exact.boundaries, options.outDir);
   }
   if (!options.vdb.empty()) {
     progress.step("writing " + options.vdb.string());
     watch.lap();
-    VdbOptions vdb{.source = fmt::format("{}, {}", volumeSourceName(options.map.volumeSource),
-                                         volumeFitName(options.map.volumeFit)),
+    VdbOptions vdb{.source = fmt::format("{}, {}", options.map.text(kVolumeSource), options.map.text(kVolumeFit)),
                    .command = options.command,
                    .voxelMetres = options.vdbVoxel};
     vdb.boundsW = computeBounds(session.scene());

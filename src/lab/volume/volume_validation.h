@@ -1,7 +1,7 @@
 #pragma once
 // A session's shadow volume, built on the GPU and checked on the CPU: the work behind `gnomon vsv`.
 
-#include "lab/core/method.h"
+#include "lab/core/session.h"
 #include "lab/results/schema.h"
 #include "vsv/check/source_check.h"
 #include "vsv/check/vdb_file.h"
@@ -41,8 +41,8 @@ struct VolumeTimes {  // milliseconds of wall clock
 };
 
 struct VolumeResult {
-  FittedVolume fitted;
-  Exact exact;  // the light and what the camera sees of it
+  FittedMap columns;
+  Light light;
   uint64_t voxels = 0, occluded = 0;
   uint64_t denseBytes = 0, gridBytes = 0, gridTiles = 0, gridLeaves = 0;
   std::optional<VolumeValidation> validation;

@@ -1,0 +1,190 @@
+#include "judge/light_on_map.h"
+
+#include "base/error.h"
+#include "judge/filtered_truth.h"
+#include "judge/texel_density.h"
+#include "shadow/occluders.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include <glm/gtx/component_wise.hpp>
+
+namespace gnomon {
+
+namespace {
+
+const Light& requireLightFor(const Scene& scene, const Parameterization& map) {
+  const Light* light = firstLightFor(scene, map);
+  if (light == nullptr)
+    throw WorldError(fmt::format("scene '{}' has no light that a {} map can be made of", scene.name, map.name()));
+  return *light;
+}
+
+std::vector<glm::dvec3> scoredPoints(const Receivers& receivers) {
+  std::vector<glm::dvec3> points;
+  points.reserve(receivers.scored);
+  for (size_t i = 0; i < receivers.states.size(); ++i)
+    if (receivers.states[i] == PixelState::Scored) points.push_back(receivers.samples[i].positionW);
+  return points;
+}
+
+}  // namespace
+
+Method atDefaults(const BiasMethod& bias, const SceneView& view) {
+  return {.bias = &bias, .params = defaultBiasParams(bias, view.sceneScale())};
+}
+
+Verdict verdictOf(const glsl::PixelDiagnosis& pixel) {
+  if ((pixel.flags & glsl::kPixelShaded) == 0) return Verdict::NotAsked;
+  if ((pixel.flags & glsl::kPixelCovered) == 0) return Verdict::Uncovered;
+  return (pixel.flags & glsl::kPixelLit) != 0 ? Verdict::Lit : Verdict::Shadow;
+}
+
+RayD texelRayW(const FittedMap& fitted, uint32_t texelWord) {
+  const glm::vec2 uv = glsl::mapTexelCenter(fitted.map, glsl::unpackTexel(texelWord));
+  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, glsl::unpackLayer(texelWord), uv);
+  const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
+                                  glm::dvec3(fitted.frame.backW));
+  return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
+          .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))};
+}
+
+LightOnMap::LightOnMap(const SceneView& view, ShadowPasses& passes, const Parameterization& map, const Light& source,
+                       const LightModel& light, MapSetup setup)
+    : view_(view), passes_(passes), map_(map), setup_(std::move(setup)), source_(source), light_(light) {}
+
+LightOnMap::LightOnMap(const SceneView& view, ShadowPasses& passes, const Parameterization& map, const Light& source,
+                       MapSetup setup)
+    : LightOnMap(view, passes, map, source, lightTakenBy(map, view, source), std::move(setup)) {}
+
+LightOnMap::LightOnMap(const SceneView& view, ShadowPasses& passes, const Parameterization& map, MapSetup setup)
+    : LightOnMap(view, passes, map, requireLightFor(view.scene(), map), std::move(setup)) {}
+
+LightOnMap::LightOnMap(const LightOnMap& other, MapSetup setup)
+    : LightOnMap(other.view_, other.passes_, other.map_, other.source_, other.light_, std::move(setup)) {
+  other.groundTruth();
+  truth_ = other.truth_;
+}
+
+const GroundTruth& LightOnMap::groundTruth() const {
+  if (!truth_) truth_ = std::make_shared<const GroundTruth>(traceGroundTruth(view_, source_, light_));
+  return *truth_;
+}
+
+const LightOnMap::Fit& LightOnMap::fit() const {
+  if (fit_) return *fit_;
+  if (!setup_.receiversW) groundTruth();  // not a part of what fitting takes
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<glm::dvec3> receiversW = setup_.receiversW ? *setup_.receiversW : scoredPoints(receivers());
+  Fit made{.fitted = map_.fit({.scene = view_.scene(),
+                               .light = light_,
+                               .receiversW = receiversW,
+                               .side = setup_.side,
+                               .camera = view_.view(),
+                               .options = setup_.options})};
+  made.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return fit_.emplace(std::move(made));
+}
+
+const FittedMap& LightOnMap::fitted() const {
+  return fit().fitted;
+}
+
+double LightOnMap::fitMs() const {
+  return fit().ms;
+}
+
+const Occluders& LightOnMap::occluders(ChannelSet channels) {
+  const auto found = occluders_.find(channels);
+  if (found != occluders_.end()) return *found->second;
+  occluders_.emplace(channels, map_.createOccluders(view_.device(), fitted(), channels));
+  redraw(channels);
+  return *occluders_.at(channels);
+}
+
+double LightOnMap::redraw(ChannelSet channels) {
+  occluders(channels);
+  gpu::Commands commands(view_.device(), "shadow map");
+  occluders_.at(channels)->recordDrawing(commands, passes_.maps, view_.buffers(), light_, setup_.cull);
+  return commands.submitAndWait().wallMs;
+}
+
+double LightOnMap::timeLookup(const Method& method, const ShadowLookup& lookup) {
+  const Occluders& drawn = occluders(method.bias->channels);
+  passes_.visibility.setUniforms(shadeUniforms(view_.view(), light_, method.params));
+  gpu::Commands commands(view_.device(), lookup.diagnose ? "visibility, diagnosed" : "visibility");
+  drawn.recordVisibility(commands, view_.buffers(), view_.gbuffer(), passes_.visibility, lookup);
+  return commands.submitAndWait().wallMs;
+}
+
+double LightOnMap::timeVisibility(const Method& method, const ChosenFilter& filter) {
+  return timeLookup(method, {.bias = *method.bias, .filter = filter});
+}
+
+std::vector<float> LightOnMap::visibility(const Method& method, const ChosenFilter& filter) {
+  timeVisibility(method, filter);
+  return gpu::downloadAs<float>(view_.device(), passes_.visibility.visibility());
+}
+
+std::vector<glsl::PixelDiagnosis> LightOnMap::diagnose(const Method& method) {
+  timeLookup(method, {.bias = *method.bias, .diagnose = true});
+  return gpu::downloadAs<glsl::PixelDiagnosis>(view_.device(), passes_.visibility.diagnosis());
+}
+
+LabelledResult LightOnMap::judge(const Method& method) {
+  const std::vector<glsl::PixelDiagnosis> diagnosis = diagnose(method);
+  LabelledResult result;
+  result.visibility = gpu::downloadAs<float>(view_.device(), passes_.visibility.visibility());
+  result.verdicts.resize(diagnosis.size());
+  for (size_t i = 0; i < diagnosis.size(); ++i) {
+    result.verdicts[i] = verdictOf(diagnosis[i]);
+    if (receivers().states[i] != PixelState::Scored) continue;
+    if ((diagnosis[i].flags & glsl::kPixelGrazing) != 0) ++result.grazing;
+    if (result.verdicts[i] == Verdict::NotAsked) {
+      result.edgeOn.push_back(i);
+      result.verdicts[i] = truth().lit[i] != 0 ? Verdict::Lit : Verdict::Shadow;
+    }
+  }
+  const FittedMap& map = fitted();
+  result.labels = labelPixels(view_.tracer(), light_, receivers(), truth(), result.verdicts,
+                              [&](size_t pixel) { return texelRayW(map, diagnosis[pixel].texel); });
+  return result;
+}
+
+std::vector<float> LightOnMap::filteredTruth(const ChosenFilter& filter) const {
+  return computeFilteredTruth(view_.tracer(), light_, receivers(), truth(), fitted(), filter);
+}
+
+std::vector<float> LightOnMap::texelDensities() const {
+  return gnomon::texelDensities(fitted(), receivers());
+}
+
+Exposure LightOnMap::exposure() const {
+  const Receivers& seen = receivers();
+  std::vector<double> squaredDistances;
+  for (size_t i = 0; i < seen.states.size(); i += 7) {
+    if (truth().lit[i] == 0 || seen.states[i] != PixelState::Scored) continue;
+    const glm::dvec3 d = seen.samples[i].positionW - light_.positionW;
+    squaredDistances.push_back(light_.type == LightType::Directional ? 1.0 : glm::dot(d, d));
+  }
+  double typical = 1.0;
+  if (!squaredDistances.empty()) {
+    const auto middle = squaredDistances.begin() + static_cast<std::ptrdiff_t>(squaredDistances.size() / 2);
+    std::nth_element(squaredDistances.begin(), middle, squaredDistances.end());
+    typical = *middle;
+  }
+  const glm::vec3 color = source_.color / std::max(glm::compMax(source_.color), 1e-6f);
+  return {.lightColor = color * static_cast<float>(0.75 * typical), .ambient = glm::vec3(0.07f, 0.08f, 0.10f)};
+}
+
+ImageF LightOnMap::radiance(std::span<const float> visibility, const Exposure& exposure) const {
+  glsl::ShadeUniforms shade = shadeUniforms(view_.view(), light_, {});
+  shade.lightColor = exposure.lightColor;
+  shade.ambient = exposure.ambient;
+  return passes_.shade(view_, shade, visibility);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,127 @@
+#pragma once
+// One light as one parameterization takes it, in one picture: its ground truth, the fit, the map or volume drawn of it,
+// what any bias says of each pixel, and why that is wrong where it is.
+//
+//   ShadowPasses passes(view);
+//   LightOnMap lit(view, passes, cubeParameterization(), {.side = 512});
+//   const LabelledResult result = lit.judge(atDefaults(findBias("adaptive"), view));
+//
+// Each of these is made when it is first asked for, and kept.
+
+#include "judge/ground_truth.h"
+#include "judge/shadow_passes.h"
+#include "truth/labels.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace gnomon {
+
+// A bias with its knobs set.
+struct Method {
+  const BiasMethod* bias = nullptr;
+  glsl::BiasParams params{};
+};
+Method atDefaults(const BiasMethod& bias, const SceneView& view);
+
+struct MapSetup {
+  int side = 1024;  // texels of a layer
+  MapOptions options = {};
+  CullMode cull = CullMode::Solids;
+  // What the map is fitted to; absent: the scored points that the camera sees; empty: the whole scene.
+  std::optional<std::vector<glm::dvec3>> receiversW = {};
+};
+
+// One bias on one map, without a filter.
+struct LabelledResult {
+  std::vector<float> visibility;  // one a pixel
+  std::vector<Verdict> verdicts;
+  LabelImage labels;
+  // Scored pixels that the shader's floats take for facing away: edge-on to the light or the camera within
+  // rounding, where no light arrives either way. They count as agreeing.
+  std::vector<size_t> edgeOn;
+  size_t grazing = 0;  // scored pixels whose texel ray does not meet their plane between near and far
+};
+
+Verdict verdictOf(const glsl::PixelDiagnosis& pixel);
+
+// The light ray through the centre of the texel that decided a pixel, in the world. `texelWord`: PixelDiagnosis::texel.
+RayD texelRayW(const FittedMap& fitted, uint32_t texelWord);
+
+struct Exposure {
+  glm::vec3 lightColor{1.0f};  // radiant intensity over pi; of a directional light irradiance over pi
+  glm::vec3 ambient{0.0f};
+};
+
+class LightOnMap {
+ public:
+  LightOnMap(const SceneView& view, ShadowPasses& passes, const Parameterization& map, const Light& source,
+             MapSetup setup);
+  // Of firstLightFor(). Throws WorldError where there is none.
+  LightOnMap(const SceneView& view, ShadowPasses& passes, const Parameterization& map, MapSetup setup);
+  // The light taken as it was for another view.
+  LightOnMap(const SceneView& view, ShadowPasses& passes, const Parameterization& map, const Light& source,
+             const LightModel& light, MapSetup setup);
+  // The same light, ground truth and parameterization, mapped otherwise.
+  LightOnMap(const LightOnMap& other, MapSetup setup);
+
+  const SceneView& view() const { return view_; }
+  ShadowPasses& passes() const { return passes_; }
+  const Parameterization& parameterization() const { return map_; }
+  const MapSetup& setup() const { return setup_; }
+  const Light& source() const { return source_; }     // as the scene or the command line has it
+  const LightModel& light() const { return light_; }  // as the map takes it
+
+  const GroundTruth& groundTruth() const;
+  const Receivers& receivers() const { return groundTruth().receivers; }
+  const Truth& truth() const { return groundTruth().truth; }
+
+  const FittedMap& fitted() const;
+  double fitMs() const;  // wall clock, milliseconds
+
+  // Drawn with what a bias reads of them (BiasMethod::channels).
+  const Occluders& occluders(ChannelSet channels = glsl::kChannelDepth);
+  // Wall clock of drawing them once more, milliseconds.
+  double redraw(ChannelSet channels = glsl::kChannelDepth);
+
+  // One value a pixel, through a filter.
+  std::vector<float> visibility(const Method& method, const ChosenFilter& filter = glsl::kShadowFilterNone);
+  double timeVisibility(const Method& method,
+                        const ChosenFilter& filter = glsl::kShadowFilterNone);  // wall clock, milliseconds
+  // Of the unfiltered map: how each pixel was decided, and by which texel.
+  std::vector<glsl::PixelDiagnosis> diagnose(const Method& method);
+  LabelledResult judge(const Method& method);
+
+  // The truth through a filter (filtered_truth.h), and texels a square metre of each pixel's surface (texel_density.h).
+  std::vector<float> filteredTruth(const ChosenFilter& filter) const;
+  std::vector<float> texelDensities() const;
+
+  // So that a typical lit surface is neither dark nor burnt: a white one that faces the light at the median distance of
+  // what is lit has radiance 0.75.
+  Exposure exposure() const;
+  // Linear rgb by one visibility a pixel.
+  ImageF radiance(std::span<const float> visibility, const Exposure& exposure) const;
+  ImageF radiance(std::span<const float> visibility) const { return radiance(visibility, exposure()); }
+
+ private:
+  struct Fit {
+    FittedMap fitted;
+    double ms = 0.0;
+  };
+  const Fit& fit() const;
+  double timeLookup(const Method& method, const ShadowLookup& lookup);
+
+  const SceneView& view_;
+  ShadowPasses& passes_;
+  const Parameterization& map_;
+  const MapSetup setup_;
+  const Light source_;
+  const LightModel light_;
+  mutable std::shared_ptr<const GroundTruth> truth_;
+  mutable std::optional<Fit> fit_;
+  std::map<ChannelSet, std::unique_ptr<Occluders>> occluders_;
+};
+
+}  // namespace gnomon

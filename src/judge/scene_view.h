@@ -1,0 +1,60 @@
+#pragma once
+// A scene on a device, as a camera sees it: what is rendered, traced and labelled for one picture starts here.
+
+#include "scene/gbuffer.h"
+#include "truth/tracer.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace gnomon {
+
+// A scene and what traces rays through it; stays where it is made.
+struct TracedScene {
+  explicit TracedScene(Scene s) : scene(std::move(s)), tracer(scene) {}
+  TracedScene(const TracedScene&) = delete;
+  TracedScene& operator=(const TracedScene&) = delete;
+  const Scene scene;
+  const Tracer tracer;
+};
+
+class SceneView {
+ public:
+  // Uploads the scene and draws the G-buffer. `width` and `height` in pixels.
+  SceneView(std::shared_ptr<const gpu::Device> device, std::shared_ptr<const TracedScene> traced, const Camera& camera,
+            int width, int height);
+  // By the scene's first camera. Throws WorldError where it has none.
+  SceneView(std::shared_ptr<const gpu::Device> device, Scene scene, int width, int height);
+  SceneView(std::shared_ptr<const gpu::Device> device, std::shared_ptr<const TracedScene> traced, int width,
+            int height);
+  // The same scene on the same device, seen by another camera.
+  SceneView(const SceneView& other, const Camera& camera);
+
+  const Scene& scene() const { return traced_->scene; }
+  const Tracer& tracer() const { return traced_->tracer; }
+  const gpu::Device& device() const { return *device_; }
+  const SceneBuffers& buffers() const { return *buffers_; }
+  const GBuffer& gbuffer() const { return *gbuffer_; }
+  const Camera& camera() const { return camera_; }
+  const glsl::CameraView& view() const { return view_; }
+  std::span<const glsl::PrimitiveId> primitiveIds() const { return ids_; }
+  float sceneScale() const;  // the scene's diagonal, metres
+
+  // Wall clock of drawing the G-buffer once more, milliseconds.
+  double timeGBuffer() const;
+
+ private:
+  SceneView(std::shared_ptr<const gpu::Device> device, std::shared_ptr<const TracedScene> traced,
+            std::shared_ptr<const SceneBuffers> buffers, const Camera& camera, int width, int height);
+
+  std::shared_ptr<const TracedScene> traced_;
+  std::shared_ptr<const gpu::Device> device_;
+  std::shared_ptr<const SceneBuffers> buffers_;
+  Camera camera_;
+  glsl::CameraView view_{};
+  std::unique_ptr<GBuffer> gbuffer_;
+  std::vector<glsl::PrimitiveId> ids_;
+};
+
+}  // namespace gnomon

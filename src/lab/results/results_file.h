@@ -1,0 +1,22 @@
+#pragma once
+// results.json, written and read: docs/results.md, which a test holds against the declared fields.
+
+#include "lab/results/comparison.h"
+#include "lab/results/media_results.h"
+
+#include <filesystem>
+#include <variant>
+
+namespace gnomon {
+
+// The whole file as text.
+std::string resultsText(const Comparison& comparison);
+std::string resultsText(const MediaResults& media);
+
+using Results = std::variant<Comparison, MediaResults>;
+
+// Reads folder/results.json: schema 4; of those before, which had fewer fields, what there is. Throws WorldError that
+// names the file, and the field where one is wrong.
+Results readResults(const std::filesystem::path& folder);
+
+}  // namespace gnomon

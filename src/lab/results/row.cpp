@@ -1,0 +1,36 @@
+#include "lab/results/row.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+std::string paramText(const Param& param) {
+  return std::visit([](const auto& value) { return fmt::format("{}", value); }, param.value);
+}
+
+std::string paramText(const Params& params, const std::string& name) {
+  const auto found = std::ranges::find(params, name, &Param::name);
+  return found == params.end() ? "" : paramText(*found);
+}
+
+double Row::shareOf(size_t pixels) const {
+  return scored == 0 ? 0.0 : static_cast<double>(pixels) / static_cast<double>(scored);
+}
+
+bool Row::isKnob(const Param& param) const {
+  return std::holds_alternative<double>(param.value);
+}
+
+std::string Row::unitOf(const std::string& knob) const {
+  const auto found = std::ranges::find(units, knob, &NamedTexts::value_type::first);
+  return found == units.end() ? "" : found->second;
+}
+
+std::vector<Row> ranked(std::vector<Row> rows) {
+  std::ranges::stable_sort(rows, {}, [](const Row& row) { return std::tuple(row.biasError(), row.wrong()); });
+  return rows;
+}
+
+}  // namespace gnomon

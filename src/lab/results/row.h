@@ -1,0 +1,203 @@
+#pragma once
+// A row of a comparison: one method on one map through one filter, against the exact shadow.
+
+#include "lab/results/schema.h"
+
+#include <cstdint>
+#include <variant>
+
+namespace gnomon {
+
+// How good a tuned value is where it was not tuned.
+struct Transfer {
+  double biasError = 0.0, bestBiasError = 0.0;
+  float bestValue = 0.0f;
+
+  static constexpr auto fields() {
+    return std::tuple(field("bias_error", &Transfer::biasError, {.says = "there, with the value tuned here"}),
+                      field("best_bias_error", &Transfer::bestBiasError, {.says = "there, with the value tuned there"}),
+                      field("best_value", &Transfer::bestValue, {.says = "the value tuned there"}));
+  }
+};
+
+struct CameraTransfer : Transfer {
+  std::string camera;
+
+  static constexpr auto fields() {
+    return std::tuple_cat(std::tuple(field("camera", &CameraTransfer::camera, {.says = "its name"})),
+                          Transfer::fields());
+  }
+};
+
+struct MapSizeTransfer : Transfer {
+  int mapSize = 0;
+
+  static constexpr auto fields() {
+    return std::tuple_cat(
+        std::tuple(field("map_size", &MapSizeTransfer::mapSize, {.unit = "texels", .says = "width of a slice"})),
+        Transfer::fields());
+  }
+};
+
+struct Tuning {
+  std::string knob;
+  float value = 0.0f;
+  std::string unit;
+  int evaluations = 0;
+  std::optional<CameraTransfer> otherCamera;
+  std::optional<MapSizeTransfer> otherMapSize;
+
+  static constexpr auto fields() {
+    return std::tuple(
+        field("knob", &Tuning::knob, {.says = "the parameter that was tuned: the bias's first"}),
+        field("value", &Tuning::value, {.says = "with the least acne and leak here"}),
+        field("unit", &Tuning::unit, {.says = "of `value`", .absent = Absent::Earlier}),
+        field("evaluations", &Tuning::evaluations, {.says = "number of values tried"}),
+        field("other_camera", &Tuning::otherCamera, {.says = "how well the value works from a second camera; or null"}),
+        field("other_map_size", &Tuning::otherMapSize,
+              {.says = "how well it works on a map of half the size; or null"}));
+  }
+};
+
+// A parameter of a bias (a number with a point), or what else sets the map and the method up.
+struct Param {
+  std::string name;
+  std::variant<std::string, int64_t, double> value;
+
+  bool operator==(const Param&) const = default;
+};
+using Params = std::vector<Param>;
+
+std::string paramText(const Param& param);                             // "0.0125", "solids"
+std::string paramText(const Params& params, const std::string& name);  // empty where there is none
+
+// Counts are of the unfiltered map, and add up to `scored`.
+struct Row {
+  std::string map, light;
+  bool isSum = false;
+  int mapSide = 0, layers = 0;
+  size_t mapTexels = 0;
+  std::string mapDimensions;
+  std::string bias;
+  Params params;
+  NamedTexts units;
+  std::string filter = "none";
+  size_t scored = 0, agree = 0, acne = 0, leak = 0, edgeShadow = 0, edgeLight = 0, uncovered = 0;
+  size_t grazing = 0, edgeOn = 0;
+  double rmse = 0.0;
+  std::optional<double> flip;
+  double buildMs = 0.0, shadeMs = 0.0, frameMs = 0.0;
+  std::optional<Tuning> tuning;
+  std::optional<WorstPlace> worstAcne, worstLeak;
+  std::string command;
+  Pictures pictures;
+
+  bool isTuned() const { return tuning.has_value(); }
+  size_t edge() const { return edgeShadow + edgeLight; }
+  size_t wrong() const { return scored - agree; }
+  double biasError() const { return shareOf(acne + leak); }
+  double shareOf(size_t pixels) const;  // of the scored ones
+
+  bool isKnob(const Param& param) const;
+  std::string unitOf(const std::string& knob) const;  // empty where it has none
+
+  // Of the scored pixels, those with one label.
+  static constexpr auto labelCount(const char* name, size_t Row::*count, const char* title, TableColumn table,
+                                   Hides hides = Hides::Never) {
+    return field(name, count,
+                 {.unit = "pixels",
+                  .says = "with this label",
+                  .kind = NumberKind::Count,
+                  .title = title,
+                  .table = table,
+                  .hides = hides,
+                  .metric = title[0] != 0});
+  }
+
+  static constexpr auto fields() {
+    return std::tuple(
+        field("map", &Row::map, {.says = "parameterization"}),
+        field("light", &Row::light, {.says = "name of the light; `all` in a sum", .absent = Absent::Earlier}),
+        field("sum", &Row::isSum,
+              {.says = "true: of this method over all lights (`--light all`); counts and times are added",
+               .absent = Absent::Earlier}),
+        field("map_size", &Row::mapSide, {.unit = "texels", .says = "width of a slice"}),
+        field("layers", &Row::layers, {.says = "number of slices: faces, halves, cascades"}),
+        field("map_texels", &Row::mapTexels, {.says = "in all slices"}),
+        field("map_dimensions", &Row::mapDimensions,
+              {.says = "`map_size`, or a volume's voxels: alpha x theta x phi", .absent = Absent::Earlier}),
+        field("bias", &Row::bias, {.says = "its name"}),
+        field("params", &Row::params, {.says = "map and bias parameters; below", .absent = Absent::Earlier}),
+        field("units", &Row::units,
+              {.says = "units of the bias parameters among `params`, by name", .absent = Absent::Earlier}),
+        field("filter", &Row::filter, {.says = "`none`, `bilinear`, `jitter4x4`", .absent = Absent::Earlier}),
+        field("tuned", &Row::isTuned, {.says = "whether its parameters were searched (`--tune`)"}),
+        field("scored", &Row::scored,
+              {.unit = "pixels", .says = "that face the light within its cone", .kind = NumberKind::Count}),
+        labelCount("agree", &Row::agree, "", {"agree", 9}), labelCount("acne", &Row::acne, "Acne", {"acne", 8}),
+        labelCount("leak", &Row::leak, "Leak", {"leak", 8}),
+        labelCount("edge_shadow", &Row::edgeShadow, "Edge, shadow", {"edge_sh", 8}),
+        labelCount("edge_light", &Row::edgeLight, "Edge, light", {"edge_li", 8}),
+        field("edge", &Row::edge,
+              {.unit = "pixels", .says = "both", .kind = NumberKind::Count, .metric = true, .inFile = false}),
+        labelCount("uncovered", &Row::uncovered, "Uncovered", {"uncovered", 9}, Hides::OnPage),
+        field("grazing", &Row::grazing,
+              {.unit = "pixels",
+               .says = "whose texel ray does not meet the receiver's plane between near and far; the receiver's own "
+                       "depth is used "
+                       "instead",
+               .absent = Absent::Earlier,
+               .kind = NumberKind::Count}),
+        field("edge_on", &Row::edgeOn,
+              {.unit = "pixels",
+               .says = "that face away in the shader's floats but not in double precision: edge-on within rounding, "
+                       "counted as "
+                       "agreeing",
+               .absent = Absent::Earlier,
+               .kind = NumberKind::Count}),
+        field("bias_error", &Row::biasError,
+              {.says = "(acne + leak) / scored",
+               .kind = NumberKind::Share,
+               .table = {"bias error", 10, 4},
+               .ranks = true,
+               .metric = true}),
+        field("rmse", &Row::rmse,
+              {.says = "of the visibility against the truth through the same filter; uncovered pixels count as lit",
+               .title = "RMSE",
+               .table = {"rmse", 7, 4},
+               .metric = true}),
+        field("flip", &Row::flip,
+              {.says = "mean FLIP of the shaded picture; null where no filter is asked for",
+               .title = "FLIP",
+               .table = {"flip", 7, 4},
+               .hides = Hides::OnPage}),
+        field("build_ms", &Row::buildMs,
+              {.unit = "ms",
+               .says = "drawing the map; median of `--repeats`, wall clock",
+               .kind = NumberKind::Milliseconds,
+               .title = "Build ms",
+               .table = {"build ms", 9, 2}}),
+        field("shade_ms", &Row::shadeMs,
+              {.unit = "ms",
+               .says = "visibility pass; likewise",
+               .kind = NumberKind::Milliseconds,
+               .title = "Shade ms",
+               .table = {"shade ms", 9, 2}}),
+        field("frame_ms", &Row::frameMs,
+              {.unit = "ms",
+               .says = "`gbuffer_ms` + `build_ms` + `shade_ms`",
+               .kind = NumberKind::Milliseconds,
+               .title = "Frame ms"}),
+        field("tuning", &Row::tuning, {.says = "of a tuned row, else null; below"}),
+        field("worst_acne", &Row::worstAcne, {.says = "the square of the picture with the most acne, or null; below"}),
+        field("worst_leak", &Row::worstLeak, {.says = "likewise of leak"}),
+        field("command", &Row::command, {.says = "the command line that makes this row again", .absent = Absent::Earlier}),
+        field("pictures", &Row::pictures,
+              {.says = "paths relative to results.json; below", .absent = Absent::Earlier}));
+  }
+};
+
+// Rows by bias error, then by all wrong pixels, then as they ran.
+std::vector<Row> ranked(std::vector<Row> rows);
+
+}  // namespace gnomon

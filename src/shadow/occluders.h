@@ -1,0 +1,70 @@
+#pragma once
+// What a light meets first along each of its rays, drawn on a device: the depths of a shadow map (map_image.h) or
+// the bits of a shadow volume (vsv/shadow_volume.h). Whoever lights a picture asks here and need not know which.
+
+#include "gpu/commands.h"
+#include "scene/gbuffer.h"
+#include "shadow/filter.h"
+#include "shadow/parameterization.h"
+
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+class MapRenderer;
+class VisibilityPass;
+
+enum class CullMode {
+  Solids,  // back faces of closed one-sided meshes, seen from the light, are left out (Weiskopf & Ertl 2003,
+           // section 4)
+  None,
+};
+
+// "solids" or "none". Throws UsageError.
+CullMode parseCullMode(const std::string& name);
+const char* cullModeName(CullMode mode);
+
+// How a picture's pixels are looked up. The bias's parameters are in the pass's uniforms.
+struct ShadowLookup {
+  const BiasMethod& bias;
+  ChosenFilter filter = glsl::kShadowFilterNone;
+  bool diagnose = false;  // also which texel decided each pixel, and how; without a filter only
+};
+
+class Occluders {
+ public:
+  virtual ~Occluders() = default;
+
+  const FittedMap& fitted() const { return fitted_; }
+  int kind() const { return fitted_.map.kind; }              // glsl::kMap*
+  const gpu::Buffer& uniforms() const { return uniforms_; }  // glsl::MapUniforms
+
+  // Draws them once more. `light` decides which solids may be culled (MapRenderer::record). A barrier must follow.
+  virtual void recordDrawing(gpu::Commands& commands, const MapRenderer& renderer, const SceneBuffers& scene,
+                             const LightModel& light, CullMode cull) = 0;
+
+  // The visibility of each pixel, into the buffers of `pass`. The parameterization must support bias and filter.
+  virtual void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                                VisibilityPass& pass, const ShadowLookup& lookup) const = 0;
+
+  // What a medium reads along its view rays: a volume's bits, 128 at a time, or depths, one look-up a sample.
+  virtual const gpu::Buffer* bits() const { return nullptr; }  // null where there are depths only
+  virtual const gpu::Image& depth() const = 0;  // D32, an array of layers; of a volume: what its bits were made of
+
+  // The stored depths in host memory, as mapDepth() gives them, rows within layers; 1 where nothing is hit.
+  virtual std::vector<float> downloadDepth(const gpu::Device& device) const = 0;
+  // The nearest behind them; empty where it is not stored.
+  virtual std::vector<float> downloadSecondDepth(const gpu::Device&) const { return {}; }
+
+ protected:
+  Occluders(const gpu::Device& device, const FittedMap& fitted, const char* uniformsName);
+  Occluders(Occluders&&) = default;
+  Occluders& operator=(Occluders&&) = default;
+
+ private:
+  FittedMap fitted_;
+  gpu::Buffer uniforms_;
+};
+
+}  // namespace gnomon

@@ -1,0 +1,193 @@
+// One light on one map: what it is taken as, what is drawn, and labels that follow from verdicts and truth.
+#include "judge/light_on_map.h"
+
+#include "base/error.h"
+#include "lit_map.h"
+#include "omni/cube_map.h"
+#include "planar/planar_map.h"
+#include "vsv/volume_parameterization.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace gnomon {
+namespace {
+
+using test::LitMap;
+
+// A map each of a point, a spot and a directional light, and a volume.
+const std::vector<const Parameterization*>& everyMap() {
+  static const std::vector<const Parameterization*> maps = {&cubeParameterization(), &spotParameterization(),
+                                                            &directionalParameterization(), &volumeParameterization()};
+  return maps;
+}
+
+MapSetup smallSetup() {
+  return {.side = 64, .options = {kVolumeSize({.alpha = 64, .theta = 64, .phi = 128})}};
+}
+
+class LightOnMapTest : public gpu::GpuTest {};
+
+TEST_F(LightOnMapTest, ALightIsTakenAsTheMapTakesIt) {
+  const LightType types[] = {LightType::Point, LightType::Spot, LightType::Directional, LightType::Point};
+  for (size_t i = 0; i < everyMap().size(); ++i) {
+    const LitMap map(device(), "atrium", *everyMap()[i], 64, smallSetup());
+    EXPECT_EQ(map.lit.light().type, types[i]) << everyMap()[i]->name();
+    EXPECT_EQ(everyMap()[i]->supportsLight(map.lit.source().type), LightSupport::Yes) << everyMap()[i]->name();
+  }
+}
+
+// A spot's own direction and cone, so that some pixels lie outside of it.
+TEST_F(LightOnMapTest, ASpotKeepsItsDirectionAndItsCone) {
+  const SceneView seen(test::lent(device()), openScene("contact"), 64, 64);
+  ShadowPasses passes(seen);
+  const Bounds bounds = computeBounds(seen.scene());
+  const Light spot{.type = LightType::Spot,
+                   .positionW = bounds.center() + glm::vec3(0.0f, bounds.diagonal(), 0.0f),
+                   .directionW = {0, -1, 0},
+                   .outerConeRad = 0.05f};
+  const LightOnMap lit(seen, passes, spotParameterization(), spot, smallSetup());
+  EXPECT_EQ(lit.light().type, LightType::Spot);
+  EXPECT_EQ(lit.light().directionW, glm::dvec3(0, -1, 0));
+  EXPECT_GT(lit.receivers().outsideCone, 100u);
+  EXPECT_GT(lit.receivers().scored, 20u);
+}
+
+TEST_F(LightOnMapTest, DrawingAgainGivesTheSameBits) {
+  for (const Parameterization* parameterization : everyMap()) {
+    LitMap map(device(), "contact", *parameterization, 64, smallSetup());
+    const Occluders& occluders = map.lit.occluders();
+    const std::vector<float> once = occluders.downloadDepth(device());
+    EXPECT_LT(std::ranges::count(once, 1.0f), std::ssize(once)) << "nothing is drawn: " << parameterization->name();
+    EXPECT_GT(map.lit.redraw(), 0.0);
+    EXPECT_EQ(occluders.downloadDepth(device()), once) << parameterization->name();
+    EXPECT_EQ(&map.lit.occluders(), &occluders);
+    EXPECT_EQ(occluders.bits() != nullptr, parameterization == &volumeParameterization());
+    EXPECT_TRUE(occluders.downloadSecondDepth(device()).empty());
+  }
+}
+
+TEST_F(LightOnMapTest, DrawingAgainReplacesWhatWasThere) {
+  LitMap map(device(), "contact", volumeParameterization(), 64, smallSetup());
+  const gpu::Buffer& bits = *map.lit.occluders().bits();
+  const auto once = gpu::downloadAs<uint32_t>(device(), bits);
+  gpu::Commands commands(device(), "garbage");
+  commands.fill(bits, 0xdeadbeefu);
+  commands.submitAndWait();
+  EXPECT_NE(gpu::downloadAs<uint32_t>(device(), bits), once);
+  map.lit.redraw();
+  EXPECT_EQ(gpu::downloadAs<uint32_t>(device(), bits), once);
+}
+
+TEST_F(LightOnMapTest, WhatABiasReadsIsDrawnForIt) {
+  LitMap map(device(), "contact", spotParameterization(), 64, smallSetup());
+  map.judge("dual");
+  const Occluders& two = map.lit.occluders(findBias("dual").channels);
+  EXPECT_NE(&two, &map.lit.occluders());
+  const std::vector<float> first = two.downloadDepth(device()), second = two.downloadSecondDepth(device());
+  EXPECT_EQ(first, map.lit.occluders().downloadDepth(device()));
+  ASSERT_EQ(second.size(), first.size());
+  for (size_t i = 0; i < first.size(); ++i) ASSERT_TRUE(second[i] > first[i] || first[i] == 1.0f) << i;
+}
+
+// Agreeing is to say what the truth says; wrong one way round or the other are different labels.
+TEST_F(LightOnMapTest, LabelsFollowFromVerdictsAndTruth) {
+  for (const Parameterization* parameterization : everyMap()) {
+    LitMap map(device(), "contact", *parameterization, 96, smallSetup());
+    for (const char* bias : {"none", "constant"}) {
+      const LabelledResult result = map.judge(bias);
+      size_t wrong = 0;
+      for (size_t i = 0; i < result.verdicts.size(); ++i) {
+        const Label label = result.labels.labels[i];
+        const bool scored = map.lit.receivers().states[i] == PixelState::Scored;
+        ASSERT_EQ(label == Label::NotScored, !scored);
+        if (!scored) continue;
+        const bool lit = map.lit.truth().lit[i] != 0;
+        if (std::ranges::find(result.edgeOn, i) == result.edgeOn.end()) {
+          ASSERT_EQ(result.verdicts[i] == Verdict::Shadow, result.visibility[i] == 0.0f);
+        }
+        ASSERT_EQ(label == Label::Agree, result.verdicts[i] == (lit ? Verdict::Lit : Verdict::Shadow));
+        if (label == Label::Acne || label == Label::EdgeShadow) {
+          ASSERT_TRUE(lit);
+        }
+        if (label == Label::Leak || label == Label::EdgeLight) {
+          ASSERT_FALSE(lit);
+        }
+        wrong += label != Label::Agree ? 1 : 0;
+      }
+      EXPECT_GT(wrong, 20u) << parameterization->name() << " " << bias;
+      EXPECT_EQ(result.visibility, map.lit.visibility(atDefaults(findBias(bias), map.seen)));
+    }
+  }
+}
+
+// The texel that decided a pixel is the one that the pixel's point falls into, but for rounding at its border, and its
+// ray passes the point within a texel's reach.
+TEST_F(LightOnMapTest, ThePixelsTexelRayGoesThroughItsTexel) {
+  for (const Parameterization* parameterization : everyMap()) {
+    LitMap map(device(), "contact", *parameterization, 64, smallSetup());
+    const FittedMap& fitted = map.lit.fitted();
+    size_t asked = 0;
+    for (const glsl::PixelDiagnosis& pixel : map.lit.diagnose(atDefaults(findBias("none"), map.seen))) {
+      if (verdictOf(pixel) != Verdict::Lit && verdictOf(pixel) != Verdict::Shadow) continue;
+      const RayD ray = texelRayW(fitted, pixel.texel);
+      const double farAway = 0.5 * static_cast<double>(map.seen.sceneScale());
+      const glm::vec3 posL = glsl::lightFromWorld(fitted.frame, glm::vec3(ray.origin + ray.dir * farAway));
+      const glsl::MapPoint point = glsl::mapProject(fitted.map, posL);
+      ASSERT_EQ(point.layer, glsl::unpackLayer(pixel.texel)) << parameterization->name();
+      const glm::vec2 center = glsl::mapTexelCenter(fitted.map, glsl::unpackTexel(pixel.texel));
+      ASSERT_LT(glm::length((point.uv - center) * glsl::mapTexelCounts(fitted.map)), 0.05f) << parameterization->name();
+      ++asked;
+    }
+    EXPECT_GT(asked, 500u) << parameterization->name();
+  }
+}
+
+TEST_F(LightOnMapTest, AnotherMapOfItSharesItsTruth) {
+  LitMap map(device(), "contact", cubeParameterization(), 64, smallSetup());
+  LightOnMap half(map.lit, {.side = 32});
+  EXPECT_EQ(&half.groundTruth(), &map.lit.groundTruth());
+  EXPECT_EQ(half.fitted().map.side, 32);
+  EXPECT_EQ(half.occluders().downloadDepth(device()).size() * 4, map.lit.occluders().downloadDepth(device()).size());
+}
+
+TEST_F(LightOnMapTest, AMapMayEncloseWhatTheCameraDoesNotSee) {
+  const LitMap seen(device(), "atrium", spotParameterization(), 64, {.side = 64});
+  const LitMap whole(device(), "atrium", spotParameterization(), 64,
+                     {.side = 64, .receiversW = std::vector<glm::dvec3>()});
+  EXPECT_GT(whole.lit.fitted().zFar, seen.lit.fitted().zFar);
+}
+
+TEST_F(LightOnMapTest, ExposureMakesATypicalLitSurfaceThreeQuarters) {
+  LitMap sun(device(), "lshape", directionalParameterization(), 64, smallSetup());
+  EXPECT_NEAR(sun.lit.exposure().lightColor.x, 0.75f, 1e-6f);
+  const std::vector<float> dark(64 * 64, 0.0f), lit(64 * 64, 1.0f);
+  const ImageF ambient = sun.lit.radiance(dark), bright = sun.lit.radiance(lit);
+  for (size_t i = 0; i < bright.values.size(); ++i) ASSERT_GE(bright.values[i], ambient.values[i]);
+  EXPECT_NE(bright.values, ambient.values);
+}
+
+TEST_F(LightOnMapTest, ASceneWithoutACameraOrALightIsRefusedByName) {
+  Scene scene = openScene("lshape");
+  const auto messageOf = [&](const std::function<void()>& work) -> std::string {
+    try {
+      work();
+    } catch (const WorldError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  scene.lights.clear();
+  const SceneView seen(test::lent(device()), scene, 32, 32);
+  ShadowPasses passes(seen);
+  EXPECT_NE(messageOf([&] {
+              const LightOnMap lit(seen, passes, cubeParameterization(), smallSetup());
+            }).find("has no light that a cube map"),
+            std::string::npos);
+  scene.cameras.clear();
+  EXPECT_NE(messageOf([&] { const SceneView blind(test::lent(device()), scene, 32, 32); }).find("has no camera"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace gnomon
