@@ -50,7 +50,7 @@ void run(const char* sceneName, const char* path) {
   commands.barrier("visibility and the running integral are written -> surfaces and view rays read them");
   media.recordSurfaces(commands, seen.buffers(), seen.gbuffer(), lamp, visibility.uniforms(), visibility.visibility(),
                        false);
-  media.record(commands, seen.buffers(), seen.gbuffer(), volume, lamp, {.integrator = Integrator::Runs}, false);
+  media.record(commands, seen.buffers(), seen.gbuffer(), volume, lamp, mediaMethod("runs"), false);
   commands.barrier("surfaces and scattered light are written -> their sum reads them");
   media.recordSum(commands);
   commands.submitAndWait();

@@ -23,11 +23,6 @@ const int kBindEyeDepth = 28;     // float a pixel: metres times density to the 
 const int kMediaGroupSide = 8;    // pixels; the work group is square
 const int kTableGroupSize = 8;    // rows of the table
 
-// How bits are integrated.
-const int kIntegrateRuns = 0;
-const int kIntegrateBits = 1;
-const int kIntegratePopcount = 2;
-
 // Of the table of the running integral. Rows between the volume's lowest and highest alpha, both of which have one. Swept against double
 // quadratures without occluders (D 0.1 to 30 m, rays to 20 m, sigmaT 0.002 to 0.3 /m, g 0.2 and 0.8, 0.9 rad of alpha in front, aside, and to the
 // antipode): with 257 rows a ray's whole is within 8.3e-4 of itself, 2e-5 rms; 129 rows: 3.4e-3; 257 columns: 2.5e-3; 513 rows: no better. In

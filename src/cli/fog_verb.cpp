@@ -135,14 +135,27 @@ FogMedium fogMedium(const FogFlags& flags) {
   return medium;
 }
 
+std::vector<const Integrator*> chosenIntegrators(const std::string& names, bool compares) {
+  if (!names.empty())
+    return parseList("--integrators", names, [](const std::string& name) { return &findIntegrator(name); });
+  std::vector<const Integrator*> all;
+  for (const Integrator& integrator : integrators()) all.push_back(&integrator);
+  if (!compares) all.resize(1);
+  return all;
+}
+
+std::string integratorsHelp() {
+  std::string help = "default: all, and the first alone where only a picture is asked for;";
+  for (const Integrator& integrator : integrators()) help += fmt::format(" {}: {};", integrator.name, integrator.says);
+  help.back() = '.';
+  return help;
+}
+
 FogOptions fogOptions(const FogFlags& flags) {
   const bool folder = !flags.out.empty() && !isPicture(flags.out);
   // A picture alone needs one way to integrate; whoever asks for numbers wants all.
   const bool compares = folder || flags.truth || !flags.json.empty() || flags.out.empty();
-  const std::string integrators = !flags.integrators.empty() ? flags.integrators
-                                  : compares                 ? "runs,bits,popcount,march"
-                                                             : "runs";
-  FogOptions options{.integrators = parseList("--integrators", integrators, parseIntegrator),
+  FogOptions options{.integrators = chosenIntegrators(flags.integrators, compares),
                      .steps = parseList("--steps", flags.steps, parseSteps),
                      .marchMap = parseMarchMap(flags.marchMap),
                      .mapSide = flags.method.mapSize,
@@ -235,9 +248,7 @@ Run addFogVerb(CLI::App& app) {
                                "picture's mean; default: {:g}, in a density {:g}",
                                kBound, kDensityBound));
   verb->add_flag("--no-cache", flags->noCache, "neither read nor keep a reference of an earlier run");
-  verb->add_option("--integrators", flags->integrators,
-                   "of runs, bits, popcount (of a shadow volume) and march (through a map); default: all, and runs "
-                   "alone where only a picture is asked for");
+  verb->add_option("--integrators", flags->integrators, integratorsHelp());
   verb->add_option("--steps", flags->steps, "samples a view ray of a march; in a density, of every way to integrate")
       ->capture_default_str();
   verb->add_option("--march-map", flags->marchMap, "what a march looks shadows up in: cube or paraboloid")

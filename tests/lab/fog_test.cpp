@@ -30,7 +30,8 @@ class FogTest : public ::testing::Test {
   Session open(const SetupOptions& setup) { return {{.validation = true, .messageSink = &messages_}, setup}; }
 
   static FogOptions options() {
-    FogOptions options{.integrators = {Integrator::Runs, Integrator::Bits, Integrator::Popcount, Integrator::March},
+    FogOptions options{.integrators = {&findIntegrator("runs"), &findIntegrator("bits"), &findIntegrator("popcount"),
+                                       &findIntegrator("march")},
                        .steps = {8, 64},
                        .marchMap = parseMaps("cube").front(),
                        .mapSide = 512,
@@ -216,7 +217,7 @@ TEST_F(FogTest, ADamagedReferenceIsTracedAnew) {
 TEST_F(FogTest, AMovingLightFlickersLessInTheReferenceThanInAMarch) {
   const Session session = open({.scene = "grate", .size = "48x36"});
   FogOptions how = options();
-  how.integrators = {Integrator::Runs, Integrator::March};
+  how.integrators = {&findIntegrator("runs"), &findIntegrator("march")};
   how.steps = {8};
   how.reference.bound = 0.01;
   how.motion = FogMotion{.frames = 3, .offsetW = {0.2f, 0.0f, 0.0f}};

@@ -18,8 +18,8 @@ struct FogMotion {
 };
 
 struct FogOptions {
-  std::vector<Integrator> integrators;
-  std::vector<int> steps = {32, 128, 512};     // of a march
+  std::vector<const Integrator*> integrators;
+  std::vector<int> steps = {32, 128, 512};     // of those that take steps
   const Parameterization* marchMap = nullptr;  // cube or paraboloid
   MapOptions map;                              // size, source and fit of the volume
   int mapSide = 1024;                          // texels, of the march's map and of --vsv-source resample

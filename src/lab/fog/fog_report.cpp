@@ -116,7 +116,7 @@ std::string fogTable(const Session& session, const FogOptions&, const FogResult&
   if (view.density)
     text += fmt::format(
         "density: grid '{}', {} voxels of {:.4g} m, from {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g}; "
-        "runs, bits and popcount are one there, which marches\n",
+        "the integrators of a volume are one there, which marches\n",
         view.density->gridName(), view.density->activeVoxels(), view.density->voxelMetres(),
         view.density->boundsW().lower.x, view.density->boundsW().lower.y, view.density->boundsW().lower.z,
         view.density->boundsW().upper.x, view.density->boundsW().upper.y, view.density->boundsW().upper.z);
