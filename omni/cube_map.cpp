@@ -6,6 +6,18 @@
 
 namespace gnomon {
 
+constinit const ChoiceOption<CubeDepth> kCubeDepth({.name = "cube_depth", .sentence = "how a cube map stores depth"},
+                                                   CubeDepth::Hyperbolic,
+                                                   {{CubeDepth::Hyperbolic, "hyperbolic",
+                                                     "the rasterizer's depth of each face"},
+                                                    {CubeDepth::Radial, "radial", "linear in the distance"}});
+
+constinit const ChoiceOption<LayerPasses> kCubePasses(
+    {.name = "cube_passes", .sentence = "how often a cube's triangles are drawn"}, LayerPasses::Auto,
+    {{LayerPasses::Auto, "auto", "whichever is faster on the device, of what it draws right"},
+     {LayerPasses::Each, "six", "the faces one by one"},
+     {LayerPasses::Multiview, "multiview", "all faces in one pass"}});
+
 namespace {
 
 // z_clip = m * x + y is 0 at m = zNear and m at m = zFar.
@@ -42,15 +54,21 @@ class CubeParameterization final : public Parameterization {
   }
 
   FittedMap fit(const FitInput& input) const override {
-    const CubeDepth depth = input.options.cubeDepth;
+    const CubeDepth depth = input.options.get(kCubeDepth);
     const DepthEnds ends =
         fitDepthEnds(input.scene, input.light.positionW,
                      depth == CubeDepth::Radial ? Distance::Radial : Distance::Axial, input.receiversW);
     FittedMap fitted = makeCubeMap(input.light.positionW, depth, ends.zNear, ends.zFar, input.side,
                                    computeBounds(input.scene).diagonal());
-    fitted.shaders.passes = input.options.cubePasses;
+    fitted.shaders.passes = input.options.get(kCubePasses);
     return fitted;
   }
+
+  std::vector<const MapOption*> options() const override { return {&kCubeDepth, &kCubePasses}; }
+  std::vector<Variant> variants(const MapOptions& given) const override {
+    return {{"radial", given.with(kCubeDepth(CubeDepth::Radial))}};
+  }
+  bool looksAround() const override { return true; }
 };
 
 }  // namespace
@@ -82,10 +100,11 @@ FittedMap makeCubeMap(const glm::dvec3& lightW, CubeDepth depth, double zNear, d
     fitted.map.mapLayers[layer] = {clip, glm::mat4(glm::inverse(glm::dmat4(clip)))};
   }
   fitted.shaders.mirroredLayers = 0x3f;
+  // A cross: +X -X +Y -Y +Z -Z
+  fitted.unfoldedAt = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}};
   if (radial) {
-    constexpr const char* kFragment = "omni/draw_cube_radial.frag.glsl";
-    fitted.shaders.depth = fitted.shaders.depthMasked = kFragment;
-    fitted.shaders.secondDepth = fitted.shaders.peel = kFragment;
+    fitted.shaders.fragment = "omni/draw_cube_radial.frag.glsl";
+    fitted.shaders.rasterizedDepth = false;
   }
   return fitted;
 }

@@ -2,7 +2,7 @@
 // The cube map: six planar layers of 90 degrees around a point light, with the axes of the world. Its
 // mathematics is shaders/shared/cube_map.glsl.
 //
-// Two kinds of depth (MapOptions::cubeDepth). Hyperbolic is the rasterizer's z/w of each face, needs no
+// Two kinds of depth (kCubeDepth). Hyperbolic is the rasterizer's z/w of each face, needs no
 // fragment shader, and its near end is the nearest caster along any face's axis. Radial is linear in the
 // distance from the light, the same on both sides of an edge; its near end is the nearest caster's distance,
 // and the faces' near planes stand at 1/sqrt(3) of that, since a face's corner is sqrt(3) farther from the
@@ -11,6 +11,11 @@
 #include "shadow/parameterization.h"
 
 namespace gnomon {
+
+enum class CubeDepth { Hyperbolic, Radial };
+
+extern const ChoiceOption<CubeDepth> kCubeDepth;
+extern const ChoiceOption<LayerPasses> kCubePasses;
 
 const Parameterization& cubeParameterization();
 

@@ -1,5 +1,7 @@
 #include "omni/paraboloid_map.h"
 
+#include "base/error.h"
+#include "base/parse.h"
 #include "omni/caster_range.h"
 #include "planar/window.h"
 
@@ -7,11 +9,56 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace gnomon {
 
 namespace {
+
+using Axis = std::optional<glm::dvec3>;
+
+Axis parseAxis(const std::string& flag, const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  const glm::vec3 axis = parseVec3(flag, text);
+  if (axis == glm::vec3(0.0f)) throw UsageError(fmt::format("{} {} has no direction; write x,y,z or auto", flag, text));
+  return glm::dvec3(axis);
+}
+
+// As few digits as tell it: what was typed is a float.
+std::string axisText(const Axis& axis) {
+  if (!axis) return "auto";
+  const glm::vec3 rounded(*axis);
+  return glm::dvec3(rounded) == *axis ? fmt::format("{},{},{}", rounded.x, rounded.y, rounded.z)
+                                      : fmt::format("{},{},{}", axis->x, axis->y, axis->z);
+}
+
+std::string unitAxisText(const MapOptions& options) {
+  const Axis& axis = options.get(kParaboloidAxisW);
+  if (!axis) return "auto";
+  const glm::dvec3 unit = glm::normalize(*axis);
+  return fmt::format("{:.6g},{:.6g},{:.6g}", unit.x, unit.y, unit.z);
+}
+
+}  // namespace
+
+constinit const WrittenOption<Axis> kParaboloidAxisW(
+    {.name = "paraboloid_axis",
+     .sentence = "x,y,z: where the first hemisphere looks; auto: the seam is turned away from what the camera sees",
+     .told = unitAxisText},
+    std::nullopt, parseAxis, axisText);
+
+constinit const ChoiceOption<ParaboloidRaster> kParaboloidRaster(
+    {.name = "paraboloid_raster", .sentence = "how triangles are drawn into a paraboloid"}, ParaboloidRaster::Exact,
+    {{ParaboloidRaster::Vertex, "vertex", "straight edges between projected vertices, which is inexact"},
+     {ParaboloidRaster::Tessellated, "tessellated", "triangles are cut until that is right to half a texel"},
+     {ParaboloidRaster::Exact, "exact", "each texel's ray decides"}});
+
+namespace {
+
+// A hemisphere is drawn up to a circle of radius 1 + 6.5 / side on its plane (drawnRim), where what lies behind the
+// light is less than this over the side of the distance.
+constexpr float kRimTexels = 7.0f;
 
 constexpr size_t kAxisCandidates = 1024;  // about 4.5 degrees apart
 constexpr size_t kAxisReceivers = 1024;   // of the picture, evenly chosen
@@ -38,9 +85,9 @@ LayerShaders shadersFor(ParaboloidRaster raster) {
   LayerShaders shaders;
   shaders.projective = false;
   if (raster == ParaboloidRaster::Exact) {
-    constexpr const char* kFragment = "shadow/draw_bounded_triangle.frag.glsl";
     shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
-    shaders.depth = shaders.depthMasked = shaders.secondDepth = shaders.peel = kFragment;
+    shaders.fragment = "shadow/draw_bounded_triangle.frag.glsl";
+    shaders.rasterizedDepth = false;
     shaders.bounds = "omni/bound_in_paraboloid.comp.glsl";
   } else if (raster == ParaboloidRaster::Tessellated) {
     shaders.vertex = "omni/pull_straight_triangle.vert.glsl";
@@ -69,11 +116,18 @@ class ParaboloidParameterization final : public Parameterization {
   FittedMap fit(const FitInput& input) const override {
     const glm::dvec3& lightW = input.light.positionW;
     const DepthEnds ends = fitDepthEnds(input.scene, lightW, Distance::Radial, input.receiversW);
-    const glm::dvec3 axisW = input.options.paraboloidAxisW ? glm::normalize(*input.options.paraboloidAxisW)
-                                                           : seamAvoidingAxis(lightW, input.receiversW);
-    return makeParaboloidMap(lightW, axisW, input.options.paraboloidRaster, ends.zNear, ends.zFar, input.side,
+    const Axis& chosen = input.options.get(kParaboloidAxisW);
+    const glm::dvec3 axisW = chosen ? glm::normalize(*chosen) : seamAvoidingAxis(lightW, input.receiversW);
+    return makeParaboloidMap(lightW, axisW, input.options.get(kParaboloidRaster), ends.zNear, ends.zFar, input.side,
                              computeBounds(input.scene).diagonal());
   }
+
+  std::vector<const MapOption*> options() const override { return {&kParaboloidRaster, &kParaboloidAxisW}; }
+  std::vector<Variant> variants(const MapOptions& given) const override {
+    return {{"vertex", given.with(kParaboloidRaster(ParaboloidRaster::Vertex))},
+            {"tessellated", given.with(kParaboloidRaster(ParaboloidRaster::Tessellated))}};
+  }
+  bool looksAround() const override { return true; }
 };
 
 }  // namespace
@@ -101,6 +155,9 @@ FittedMap makeParaboloidMap(const glm::dvec3& lightW, const glm::dvec3& axisW, P
                 .zNear = fitted.zNear,
                 .zFar = fitted.zFar};
   fitted.shaders = shadersFor(raster);
+  for (int layer = 0; layer < 2; ++layer)
+    fitted.halfSpaces.push_back(
+        {.axisZ = glsl::paraboloidAxisZ(layer), .beyond = kRimTexels / static_cast<float>(side)});
   return fitted;
 }
 

@@ -3,7 +3,7 @@
 // Its mathematics is shaders/shared/paraboloid_map.glsl; the frame's -z is the axis of layer 0, and the seam
 // is the great circle across it.
 //
-// Three ways to rasterize (MapOptions::paraboloidRaster). Straight edges become arcs: `vertex` draws them
+// Three ways to rasterize (kParaboloidRaster). Straight edges become arcs: `vertex` draws them
 // straight between the corners and is wrong for large triangles; `tessellated` cuts triangles until that is
 // right to half a texel (shaders/shared/paraboloid_pieces.glsl); `exact` draws a bound of every triangle and
 // lets each texel's own ray decide. The cutting is a compute shader's and not the tessellator's, which cuts
@@ -11,7 +11,20 @@
 
 #include "shadow/parameterization.h"
 
+#include <optional>
+
 namespace gnomon {
+
+// How the triangles of a dual paraboloid are rasterized.
+enum class ParaboloidRaster {
+  Vertex,       // corners are projected, edges are drawn straight: wrong for large triangles (Brabec et al. 2002)
+  Tessellated,  // the same, of triangles cut until their edges are straight to within half a texel
+  Exact,        // each texel's ray meets the triangle or does not
+};
+
+extern const ChoiceOption<ParaboloidRaster> kParaboloidRaster;
+// Of any length; none: the seam is turned away from what the camera sees.
+extern const WrittenOption<std::optional<glm::dvec3>> kParaboloidAxisW;
 
 const Parameterization& paraboloidParameterization();
 

@@ -24,7 +24,7 @@ void run(const char* sceneName, const char* path) {
   // The faces enclose the whole scene (no receivers), whatever the camera sees.
   LightOnMap lit(seen, passes, cubeParameterization(), {.side = kMapSide, .receiversW = std::vector<glm::dvec3>()});
   const Method adaptive = atDefaults(findBias("adaptive"), seen);
-  const std::vector<float> visibility = lit.visibility(adaptive, glsl::kFilterBilinear);
+  const std::vector<float> visibility = lit.visibility(adaptive, glsl::kShadowFilterBilinear);
 
   // So that a white surface as far from the light as the camera has radiance 0.5.
   const float distance = glm::distance(seen.view().eyeW, glm::vec3(lit.light().positionW));

@@ -27,7 +27,7 @@ void run(const char* sceneName, const char* path) {
                  {.side = kMapSide, .receiversW = std::vector<glm::dvec3>()});
   // What a bias reads of a map is drawn when it is asked for: this one reads two depths.
   const Method dual = atDefaults(findBias("dual"), seen);
-  const std::vector<float> visibility = lit.visibility(dual, glsl::kFilterBilinear);
+  const std::vector<float> visibility = lit.visibility(dual, glsl::kShadowFilterBilinear);
 
   // So that a white surface as far from the light as the camera has radiance 0.5.
   const float distance = glm::distance(seen.view().eyeW, glm::vec3(lit.light().positionW));

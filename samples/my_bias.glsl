@@ -25,7 +25,7 @@ GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap 
   float aside = length(receiver.posL - nearest);  // metres
   float stored = mapDistance(map, tap.layer, tap.ray, tap.z1);
   float wanted = mapDistance(map, tap.layer, tap.ray, plane.depth);
-  return wanted <= stored + params.userKnob * aside + 1e-4f * map.sceneScale;
+  return wanted <= stored + params.knobs[kUserShare] * aside + 1e-4f * map.sceneScale;
 }
 
 GNOMON_SHARED_END

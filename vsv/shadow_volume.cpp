@@ -46,14 +46,20 @@ uint32_t groups(int count, int size) {
 
 }  // namespace
 
+std::string volumeSizeName(const VolumeSize& size) {
+  return fmt::format("{}x{}x{}", size.alpha, size.theta, size.phi);
+}
+
+VolumeSize halvedSize(const VolumeSize& size) {
+  return {.alpha = std::max(size.alpha / 2, 2),
+          .theta = std::max(size.theta / 2, 2),
+          .phi = std::max(size.phi / 256 * 128, 128)};
+}
+
 uint64_t volumeTexelCount(const glsl::EpipolarGrid& grid) {
   const uint64_t thetas =
       static_cast<uint64_t>((grid.thetaCount + glsl::kThetaBlock - 1) / glsl::kThetaBlock) * glsl::kThetaBlock;
   return thetas * static_cast<uint64_t>(grid.alphaCount) * static_cast<uint64_t>(grid.phiCount / glsl::kPhiBits);
-}
-
-bool volumeSupportsBias(const BiasMethod& method) {
-  return method.id == glsl::kBiasNone || method.id == glsl::kBiasConstant || method.id == glsl::kBiasAdaptive;
 }
 
 ShadowVolume::ShadowVolume(const gpu::Device& device, const FittedMap& columns)
@@ -109,8 +115,8 @@ void ShadowVolume::recordBits(gpu::Commands& commands, const gpu::ComputeProgram
 
 void ShadowVolume::recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                                     VisibilityPass& pass, const ShadowLookup& lookup) const {
-  GNOMON_CHECK(volumeSupportsBias(lookup.bias));
-  GNOMON_CHECK_EQ(lookup.filter, glsl::kFilterNone);
+  GNOMON_CHECK(lookup.bias.onVolumes);
+  GNOMON_CHECK_EQ(lookup.filter.id, glsl::kShadowFilterNone);
   const gpu::ComputeProgram& program =
       pass.programs().get("vsv/shade_volume_visibility.comp.glsl", {{.id = 0, .value = lookup.bias.id},
                                                                     {.id = 1, .value = lookup.diagnose ? 1 : 0},

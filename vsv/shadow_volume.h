@@ -10,13 +10,25 @@
 
 namespace gnomon {
 
+// Voxels along the three angles; phi a multiple of 128.
+struct VolumeSize {
+  int alpha = 1024, theta = 1024, phi = 512;
+  bool operator==(const VolumeSize&) const = default;
+};
+std::string volumeSizeName(const VolumeSize& size);  // "1024x1024x512"
+// Half of each side, as far as that is a size.
+VolumeSize halvedSize(const VolumeSize& size);
+
+// What alpha, theta and phi cover.
+enum class VolumeFit {
+  Frustum,  // what the camera sees, from the eye to the surfaces
+  Full,     // the whole sphere, as in the papers
+};
+
 // The grid of columns: a FittedMap of kind kMapEpipolar whose texels are the columns (theta along u, phi along v) and
 // whose depth grows with alpha. `input.side` counts for nothing. Throws WorldError where the light stands at the
 // camera's eye: there is no axis.
 FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit);
-
-// Whether a bias means anything on bits: none, constant and adaptive do (shaders/shared/volume_lookup.glsl).
-bool volumeSupportsBias(const BiasMethod& method);
 
 // How the bits are made of the occluders. Both give the same bits.
 enum class Voxelization {

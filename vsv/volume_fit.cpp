@@ -190,11 +190,11 @@ FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit
                  .sceneScale = sceneScale,
                  .epipolar = grid};
   columns.zFar = static_cast<float>(farthestReceiver(input.scene, lightW, Distance::Radial, input.receiversW));
-  constexpr const char* kFragment = "shadow/draw_bounded_triangle.frag.glsl";
   LayerShaders& shaders = columns.shaders;
   shaders.projective = false;
   shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
-  shaders.depth = shaders.depthMasked = shaders.secondDepth = shaders.peel = kFragment;
+  shaders.fragment = "shadow/draw_bounded_triangle.frag.glsl";
+  shaders.rasterizedDepth = false;
   shaders.bounds = "vsv/bound_in_epipolar.comp.glsl";
   return columns;
 }

@@ -67,6 +67,7 @@ void main() {
       result.uvA = piece.uvA;
       result.uvB = piece.uvB;
       result.uvC = piece.uvC;
+      result.triangle = index;
       result.instance = instance;
       // In any order: the nearest depth is the same.
       found[atomicAdd(draw.vertexCount, 3u) / 3u] = result;

@@ -2,22 +2,24 @@
 // which it is not. Kept to be compared with bound_in_paraboloid.comp.glsl.
 #include "shared/shade.glsl"
 
+#include "shadow/drawn_slice.glsl"
+
 layout(scalar, binding = kBindPositions) readonly buffer Positions { vec3 positions[]; };
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
 layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
 
-layout(push_constant, scalar) uniform Push { int layer; };
-
 layout(location = 0) out vec2 uv;
 layout(location = 1) out flat uint instanceIndex;
+layout(location = 2) out flat uint firstTriangle;
 
 void main() {
   instanceIndex = gl_InstanceIndex;
+  firstTriangle = rangeTriangle;
   uv = uvs[gl_VertexIndex];
   vec3 posW = vec3(transform(instances[gl_InstanceIndex].worldFromMesh, vec4(positions[gl_VertexIndex], 1.0f)));
   vec3 posL = lightFromWorld(lightFrame, posW);
   float radius = length(posL);
-  float w = posL.z * paraboloidAxisZ(layer);
+  float w = posL.z * paraboloidAxisZ(slice);
   // The opposite pole lies at infinity; the horizon cuts what comes near it.
   float scale = 1.0f / max(radius + w, 1e-3f * radius);
   gl_Position = vec4(posL.x * scale, -posL.y * scale, paraboloidDepth(shadowMap, posL), 1.0f);

@@ -5,6 +5,7 @@ layout(scalar, binding = kBindBoundedTriangles) readonly buffer Found { Straight
 
 layout(location = 0) out vec2 uv;
 layout(location = 1) out flat uint instanceIndex;
+layout(location = 2) out flat uint firstTriangle;
 
 void main() {
   uint i = uint(gl_VertexIndex) / 3u;
@@ -20,6 +21,7 @@ void main() {
     uv = found[i].uvC;
   }
   instanceIndex = found[i].instance;
+  firstTriangle = found[i].triangle - i;  // the draw's gl_PrimitiveID is i
   gl_Position = vec4(at.x, at.y, at.z, 1.0f);
   gl_ClipDistance[0] = at.w;
 }

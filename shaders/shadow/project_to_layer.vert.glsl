@@ -1,7 +1,7 @@
-// A vertex to the clip space of one layer of a planar map, by the very steps with which the receiver is projected.
+// A vertex to the clip space of one slice of a planar map, by the very steps with which the receiver is projected.
 #include "shared/shade.glsl"
 
-#include "shadow/drawn_layer.glsl"
+#include "shadow/drawn_slice.glsl"
 
 layout(scalar, binding = kBindPositions) readonly buffer Positions { vec3 positions[]; };
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
@@ -9,10 +9,12 @@ layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
 
 layout(location = 0) out vec2 uv;
 layout(location = 1) out flat uint instanceIndex;
+layout(location = 2) out flat uint firstTriangle;
 
 void main() {
   instanceIndex = gl_InstanceIndex;
+  firstTriangle = rangeTriangle;
   uv = uvs[gl_VertexIndex];
   vec3 posW = vec3(transform(instances[gl_InstanceIndex].worldFromMesh, vec4(positions[gl_VertexIndex], 1.0f)));
-  gl_Position = transform(mapLayers[drawnLayer()].clipFromLight, vec4(lightFromWorld(lightFrame, posW), 1.0f));
+  gl_Position = transform(mapLayers[drawnSlice()].clipFromLight, vec4(lightFromWorld(lightFrame, posW), 1.0f));
 }

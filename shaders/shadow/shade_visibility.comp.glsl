@@ -18,32 +18,21 @@ layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 
 layout(constant_id = 1) const int kDiagnose = 0;
 layout(constant_id = 3) const int kLayerCount = 1;
-layout(constant_id = 5) const int kSecondLayer = 0;  // 1: the method reads z2
-layout(constant_id = 6) const int kFilter = kFilterNone;
+layout(constant_id = 6) const int kFilter = kShadowFilterNone;  // kShadowFilter*
+layout(constant_id = 7) const int kTapCount = 1;
 
-layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
-layout(binding = kBindSecondDepth) uniform texture2DArray secondDepthLayers;
+layout(push_constant, scalar) uniform Push { FilterParams filterParams; };
 layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagnosis diagnosis[]; };
 
+#include "shadow/fetch_channels.glsl"
 #include "shadow/receiver_fetch.glsl"
 
 ShadowMap specializedMap() {
   ShadowMap map = shadowMap;
   map.layerCount = kLayerCount;
   return map;
-}
-
-Tap fetchTap(ShadowMap map, int layer, ivec2 texel) {
-  Tap tap;
-  tap.layer = layer;
-  tap.texel = texel;
-  tap.ray = mapTexelRay(map, layer, mapTexelCenter(map, texel));
-  tap.z1 = texelFetch(mapDepthLayers, ivec3(texel, layer), 0).x;
-  tap.z2 = 1.0f;
-  if (kSecondLayer == 1) tap.z2 = texelFetch(secondDepthLayers, ivec3(texel, layer), 0).x;
-  return tap;
 }
 
 // The share of the filter's taps that are lit; taps that no layer holds count for nothing. Without a filter the one tap is the texel that
@@ -53,13 +42,15 @@ float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2
   uint seed = pixelSeed(pixel);
   float lit = 0.0f;
   float weights = 0.0f;
-  for (int i = 0; i < filterTapCount(kFilter); ++i) {
-    FilterTap wanted = filterTap(kFilter, position, seed, i);
+  for (int i = 0; i < kTapCount; ++i) {
+    bool filterKnown;
+    FilterTap wanted = filterTap(kFilter, filterParams, position, seed, i, filterKnown);
+    if (!filterKnown) return kUnknownVisibility;
     MapTexel found;
     found.layer = point.layer;
     found.texel = mapTexel(map, point.uv);
     found.held = true;
-    if (kFilter != kFilterNone) found = mapTexelAcross(map, point.layer, wanted.texel, receiver.posL);
+    if (kFilter != kShadowFilterNone) found = mapTexelAcross(map, point.layer, wanted.texel, receiver.posL);
     if (!found.held) continue;
     Tap tap = fetchTap(map, found.layer, found.texel);
     bool known;

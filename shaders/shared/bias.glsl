@@ -1,11 +1,12 @@
 // A bias decides whether a receiver is lit by what one texel stores. It is a function of the receiver's plane, the texel's
-// ray and the stored depths, and never knows which parameterization it runs on.
+// ray and what the texel's channels hold (shared/channels.glsl), and never knows which parameterization it runs on.
 //
 // To add one: a file in bias/, an id in bias_params.glsl, a case here, a row in src/shadow/bias.cpp (docs/add_a_bias.md).
 #ifndef GNOMON_BIAS_GLSL
 #define GNOMON_BIAS_GLSL
 
 #include "shared/bias_params.glsl"
+#include "shared/channels.glsl"
 #include "shared/geometry.glsl"
 #include "shared/lang.glsl"
 #include "shared/map.glsl"
@@ -16,15 +17,6 @@ GNOMON_SHARED_BEGIN
 struct Receiver {
   vec3 posL;
   vec3 normalL;
-};
-
-// One look-up: a texel, the ray through its centre, what it stores.
-struct Tap {
-  int layer;
-  ivec2 texel;
-  Ray ray;
-  float z1;  // nearest depth; 1 where the texel is empty
-  float z2;  // nearest depth beyond z1; 1 where there is none, or where the map has one layer
 };
 
 // The receiver's plane where a ray meets it, as the map stores it. Where the ray does not meet the plane between the
@@ -59,6 +51,7 @@ GNOMON_SHARED_END
 #include "shared/bias/receiver_plane.glsl"
 #include "shared/bias/second_depth.glsl"
 #include "shared/bias/slope.glsl"
+#include "shared/bias/user_knobs.glsl"
 #include "shared/bias/user.glsl"
 
 GNOMON_SHARED_BEGIN
@@ -80,7 +73,7 @@ GNOMON_FN Receiver biasReceiver(int method, ShadowMap map, BiasParams params, Re
 GNOMON_FN bool biasLit(int method, ShadowMap map, BiasParams params, Receiver receiver, Tap tap,
                        GNOMON_OUT(bool) known) {
   known = true;
-  if (tap.z1 >= 1.0f) return true;
+  if (holdsNothing(tap)) return true;
   switch (biasMethod(method)) {
     case kBiasNone:
       return noneLit(map, receiver, tap);

@@ -1,4 +1,5 @@
-// The methods and their knobs, without the decisions (bias.glsl), so that a change of a decision rebuilds no C++ but tests.
+// The methods and their parameters, without the decisions (bias.glsl), so that a change of a decision rebuilds no C++
+// but tests.
 #ifndef GNOMON_BIAS_PARAMS_GLSL
 #define GNOMON_BIAS_PARAMS_GLSL
 
@@ -6,19 +7,13 @@
 
 GNOMON_SHARED_BEGIN
 
-// Every knob of every method; names, units, ranges and defaults are in src/shadow/bias.cpp.
+const int kMostKnobs = 4;
+
+// The parameters of one method. Its row in src/shadow/bias.cpp lists its knobs, in this order, with names, units, ranges
+// and defaults; its file in bias/ names their places.
 struct BiasParams {
-  float constantOffset;  // metres
-  float slopeFactor;     // 1
-  float slopeOffset;     // metres
-  float adaptiveK;       // 1, of the scene's scale
-  int epsilonAt;         // kEpsilonAt*
-  float normalOffsetTexels;
-  float cosineOffset;         // metres
-  float receiverPlaneOffset;  // metres
-  float secondDepthOffset;    // metres
-  float dualOffset;           // metres
-  float userKnob;             // of a user's own bias: its file says what it is
+  float knobs[kMostKnobs];
+  int epsilonAt;  // kEpsilonAt*, of the adaptive methods
 };
 
 const int kEpsilonAtFragment = 0;
@@ -42,6 +37,6 @@ const int kBiasUser = 12;  // bias/user.glsl, which --bias-file replaces
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::BiasParams) == 44);
+static_assert(sizeof(gnomon::glsl::BiasParams) == (gnomon::glsl::kMostKnobs + 1) * 4);
 #endif
 #endif

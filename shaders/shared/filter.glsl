@@ -3,9 +3,12 @@
 //
 //   none       the texel that holds the receiver
 //   bilinear   the 2 x 2 texels whose centres surround it, weighted by the fractions: a tent, two texels wide
-//   jitter4x4  16 points, one at random in each cell of a square four texels wide around it (Weiskopf & Ertl 2003, section 5)
+//   jitter4x4  16 points, one at random in each of 4 x 4 cells of a square around it, `width` texels wide (4: Weiskopf &
+//              Ertl 2003, section 5)
 //
 // The same kernels over the exact shadow are what filtered results are scored against: kernelOffset.
+//
+// To add one: an id, the places of its knobs, a case in filterTap and in kernelOffset here; a row in src/shadow/filter.cpp.
 #ifndef GNOMON_FILTER_GLSL
 #define GNOMON_FILTER_GLSL
 
@@ -13,9 +16,17 @@
 
 GNOMON_SHARED_BEGIN
 
-const int kFilterNone = 0;
-const int kFilterBilinear = 1;
-const int kFilterJitter4x4 = 2;
+const int kShadowFilterNone = 0;
+const int kShadowFilterBilinear = 1;
+const int kShadowFilterJitter4x4 = 2;
+
+const int kMostFilterKnobs = 2;
+
+// The parameters of one filter, in the order of its row in src/shadow/filter.cpp.
+struct FilterParams {
+  float knobs[kMostFilterKnobs];
+};
+const int kJitterWidth = 0;  // texels
 
 const int kKernelSamples = 16;  // of the exact kernels
 
@@ -41,45 +52,62 @@ GNOMON_FN vec2 stratifiedPoint(uint seed, int i) {
               (float(i >> 2) + float(h >> 16u) * (1.0f / 65536.0f)) * 0.25f);
 }
 
-GNOMON_FN vec2 jitterOffset(uint seed, int i) {
+GNOMON_FN vec2 jitterOffset(FilterParams params, uint seed, int i) {
+  float width = params.knobs[kJitterWidth];
   vec2 p = stratifiedPoint(seed, i);
-  return vec2(p.x * 4.0f - 2.0f, p.y * 4.0f - 2.0f);
+  return vec2(p.x * width - 0.5f * width, p.y * width - 0.5f * width);
 }
 
-GNOMON_FN int filterTapCount(int kind) { return kind == kFilterJitter4x4 ? 16 : kind == kFilterBilinear ? 4 : 1; }
-
-// Tap i of a receiver that falls on `position` (texels of the layer).
-GNOMON_FN FilterTap filterTap(int kind, vec2 position, uint seed, int i) {
+GNOMON_FN FilterTap tapAt(vec2 at, float weight) {
   FilterTap tap;
-  tap.weight = 1.0f;
-  vec2 at = position;
-  if (kind == kFilterJitter4x4) {
-    at = position + jitterOffset(seed, i);
-    tap.weight = 1.0f / 16.0f;
-  }
-  if (kind == kFilterBilinear) {
-    vec2 first = vec2(floor(position.x - 0.5f), floor(position.y - 0.5f));
-    vec2 fraction = vec2(position.x - 0.5f - first.x, position.y - 0.5f - first.y);
-    float wx = (i & 1) == 1 ? fraction.x : 1.0f - fraction.x;
-    float wy = (i >> 1) == 1 ? fraction.y : 1.0f - fraction.y;
-    tap.weight = wx * wy;
-    at = first + vec2(float(i & 1), float(i >> 1));
-  }
   tap.texel = ivec2(int(floor(at.x)), int(floor(at.y)));
+  tap.weight = weight;
   return tap;
+}
+
+GNOMON_FN FilterTap bilinearTap(vec2 position, int i) {
+  vec2 first = vec2(floor(position.x - 0.5f), floor(position.y - 0.5f));
+  vec2 fraction = vec2(position.x - 0.5f - first.x, position.y - 0.5f - first.y);
+  float wx = (i & 1) == 1 ? fraction.x : 1.0f - fraction.x;
+  float wy = (i >> 1) == 1 ? fraction.y : 1.0f - fraction.y;
+  return tapAt(first + vec2(float(i & 1), float(i >> 1)), wx * wy);
+}
+
+// Tap i of a receiver that falls on `position` (texels of the slice). An unknown filter sets `known` to false, and the
+// shader paints magenta.
+GNOMON_FN FilterTap filterTap(int kind, FilterParams params, vec2 position, uint seed, int i,
+                              GNOMON_OUT(bool) known) {
+  known = true;
+  switch (kind) {
+    case kShadowFilterNone:
+      return tapAt(position, 1.0f);
+    case kShadowFilterBilinear:
+      return bilinearTap(position, i);
+    case kShadowFilterJitter4x4:
+      return tapAt(position + jitterOffset(params, seed, i), 1.0f / 16.0f);
+  }
+  known = false;
+  return tapAt(position, 1.0f);
 }
 
 // Inverse of a tent's distribution over [-1,1].
 GNOMON_FN float tentPoint(float u) { return u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f * (1.0f - u)); }
 
 // Where sample i of the exact kernel lies, in texels from the receiver; all weigh the same. The kernel itself, and
-// not the texels' centres: what a finer map would converge to.
-GNOMON_FN vec2 kernelOffset(int kind, uint seed, int i) {
-  if (kind == kFilterJitter4x4) return jitterOffset(seed, i);
-  if (kind == kFilterBilinear) {
-    vec2 p = stratifiedPoint(seed, i);
-    return vec2(tentPoint(p.x), tentPoint(p.y));
+// not the texels' centres: what a finer map would converge to. As in filterTap, `known`.
+GNOMON_FN vec2 kernelOffset(int kind, FilterParams params, uint seed, int i, GNOMON_OUT(bool) known) {
+  known = true;
+  switch (kind) {
+    case kShadowFilterNone:
+      return vec2(0.0f, 0.0f);
+    case kShadowFilterBilinear: {
+      vec2 p = stratifiedPoint(seed, i);
+      return vec2(tentPoint(p.x), tentPoint(p.y));
+    }
+    case kShadowFilterJitter4x4:
+      return jitterOffset(params, seed, i);
   }
+  known = false;
   return vec2(0.0f, 0.0f);
 }
 

@@ -3,6 +3,7 @@
 #define GNOMON_SHADE_GLSL
 
 #include "shared/bias_params.glsl"
+#include "shared/channels.glsl"
 #include "shared/lang.glsl"
 #include "shared/light_frame.glsl"
 #include "shared/map.glsl"
@@ -10,13 +11,11 @@
 
 GNOMON_SHARED_BEGIN
 
-const int kBindMapDepth = kBindFirstFree;         // the map's layers
-const int kBindSecondDepth = kBindFirstFree + 1;  // the second layers
-const int kBindShade = kBindFirstFree + 2;        // ShadeUniforms
-const int kBindVisibility = kBindFirstFree + 3;   // float a pixel
-const int kBindDiagnosis = kBindFirstFree + 4;    // PixelDiagnosis a pixel
-const int kBindRadiance = kBindFirstFree + 5;     // vec3 a pixel
-const int kShadeGroupSide = 8;                    // pixels; the work group is square
+const int kBindRadiance = 15;    // vec3 a pixel
+const int kBindShade = 29;       // ShadeUniforms
+const int kBindVisibility = 30;  // float a pixel
+const int kBindDiagnosis = 31;   // PixelDiagnosis a pixel
+const int kShadeGroupSide = 8;   // pixels; the work group is square
 
 struct ShadeUniforms {
   CameraView camera;
@@ -55,7 +54,7 @@ GNOMON_FN vec3 towardsLight(ShadeUniforms shade, vec3 posW) { return shade.light
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::ShadeUniforms) == 128 + 44 + 16 + 16 + 24);
-static_assert(offsetof(gnomon::glsl::ShadeUniforms, ambient) == 216);
+static_assert(sizeof(gnomon::glsl::ShadeUniforms) == 128 + sizeof(gnomon::glsl::BiasParams) + 16 + 16 + 24);
+static_assert(offsetof(gnomon::glsl::ShadeUniforms, ambient) == sizeof(gnomon::glsl::ShadeUniforms) - 12);
 #endif
 #endif

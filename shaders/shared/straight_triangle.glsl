@@ -10,13 +10,14 @@ GNOMON_SHARED_BEGIN
 struct StraightTriangle {
   vec4 a, b, c;  // x and y on the layer's square, (-1, -1) where u = v = 0; depth; how far within the rim, for gl_ClipDistance
   vec2 uvA, uvB, uvC;
+  uint triangle;  // of which it is a piece, in the array of all triangles
   uint instance;
 };
 
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::StraightTriangle) == 76);
+static_assert(sizeof(gnomon::glsl::StraightTriangle) == 80);
 static_assert(sizeof(gnomon::glsl::StraightTriangle) <= sizeof(gnomon::glsl::BoundedTriangle));
 #endif
 #endif

@@ -13,8 +13,8 @@ GNOMON_SHARED_BEGIN
 const int kWrapRepeat = 0;
 const int kWrapClamp = 1;
 const int kWrapMirror = 2;
-const int kFilterNearest = 0;
-const int kFilterLinear = 1;
+const int kTexFilterNearest = 0;
+const int kTexFilterLinear = 1;
 
 struct TextureInfo {
   uint firstTexel;  // index into the array of RGBA8 words
@@ -22,7 +22,7 @@ struct TextureInfo {
   int height;       // texels
   int wrapS;        // kWrap*
   int wrapT;        // kWrap*
-  int filterMode;   // kFilter*
+  int filterMode;   // kTexFilter*
 };
 
 // The four texels a look-up blends (the same one four times where the filter is nearest).
@@ -53,7 +53,7 @@ GNOMON_FN TextureTaps textureTaps(TextureInfo info, vec2 uv) {
   int x0 = int(floor(x));
   int y0 = int(floor(y));
   int step = 0;
-  if (info.filterMode == kFilterLinear) {
+  if (info.filterMode == kTexFilterLinear) {
     x0 = int(floor(x - 0.5f));
     y0 = int(floor(y - 0.5f));
     f = vec2(x - 0.5f - float(x0), y - 0.5f - float(y0));

@@ -39,7 +39,7 @@ GNOMON_FN int voxelNotBehind(EpipolarGrid grid, float alpha) { return firstOcclu
 GNOMON_FN float adaptiveAlpha(ShadowMap map, BiasParams params, Receiver receiver, Ray ray) {
   PlaneDepth occluder = receiverPlaneDepth(map, 0, receiver, ray);
   vec3 atL = params.epsilonAt == kEpsilonAtFragment ? receiver.posL : occluder.posL;
-  float epsilon = mapDepthSlope(map, 0, atL, ray.dir) * map.sceneScale * params.adaptiveK;
+  float epsilon = mapDepthSlope(map, 0, atL, ray.dir) * map.sceneScale * params.knobs[kAdaptiveK];
   return (occluder.depth - epsilon) * alphaUpper(map.epipolar) - kAlphaRounding;
 }
 
@@ -47,7 +47,7 @@ GNOMON_FN float adaptiveAlpha(ShadowMap map, BiasParams params, Receiver receive
 GNOMON_FN float constantAlpha(ShadowMap map, BiasParams params, Receiver receiver, Ray ray) {
   float depth = mapDepth(map, 0, receiver.posL);
   float along = mapDistance(map, 0, ray, depth);
-  if (along < uintBitsToFloat(0x7f800000u)) depth = mapDepth(map, 0, ray.dir * max(along - params.constantOffset, 0.0f));
+  if (along < uintBitsToFloat(0x7f800000u)) depth = mapDepth(map, 0, ray.dir * max(along - params.knobs[kConstantOffset], 0.0f));
   return depth * alphaUpper(map.epipolar);
 }
 

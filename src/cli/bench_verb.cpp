@@ -1,7 +1,10 @@
 #include "base/file.h"
-#include "cli/common_flags.h"
+#include "cli/map_flags.h"
+#include "cli/scene_flags.h"
+#include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/bench/bench.h"
+#include "vsv/volume_parameterization.h"
 
 #include <cstdio>
 #include <memory>
@@ -14,7 +17,7 @@ namespace {
 
 struct BenchFlags {
   SceneFlags scene;
-  MethodFlags method;  // --map-texels, --cull and those of volumes
+  MapFlags map;  // --map-texels, --cull and those of volumes
   int repeats = 9;
   bool noGrowth = false;
   bool noStart = false;
@@ -24,13 +27,12 @@ struct BenchFlags {
 };
 
 int runBenchVerb(const BenchFlags& flags) {
-  BenchOptions options{.mapTexels = flags.method.mapTexels,
-                       .cull = parseCullMode(flags.method.cull),
+  BenchOptions options{.mapTexels = flags.map.mapTexels,
+                       .mapOptions = flags.map.options,
+                       .cull = parseCullMode(flags.map.cull),
                        .repeats = flags.repeats,
                        .growth = !flags.noGrowth,
                        .mostTriangles = flags.mostTriangles};
-  options.mapOptions.volumeSize = parseVolumeSize(flags.method.vsvSize);
-  options.mapOptions.volumeFit = parseVolumeFit(flags.method.vsvFit);
   if (!flags.noStart) options.program = "/proc/self/exe";
   if (!options.program.empty()) options.program = std::filesystem::read_symlink(options.program);
   const Session session = openSession(flags.scene);
@@ -41,26 +43,17 @@ int runBenchVerb(const BenchFlags& flags) {
   return 0;
 }
 
-}  // namespace
-
-Run addBenchVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<BenchFlags>();
   flags->scene.setup.scene = "atrium";
-  flags->method.mapTexels = 6291456;
-  CLI::App* verb = app.add_subcommand(
-      "bench", "what every stage costs, as ratios of one run, and how that grows; default scene: atrium");
+  flags->map.mapTexels = 6291456;
   addSceneFlags(*verb, flags->scene);
   verb->get_option("SCENE")->required(false);
-  verb->add_option("--map-texels", flags->method.mapTexels, "texels of all layers of a map together")
+  verb->add_option("--map-texels", flags->map.mapTexels, "texels of all layers of a map together")
       ->check(CLI::Range(64L, 1L << 32))
       ->capture_default_str();
-  verb->add_option("--cull", flags->method.cull,
-                   "solids: closed one-sided meshes cast by their lit faces only; none: everything casts")
-      ->capture_default_str();
-  verb->add_option("--vsv-size", flags->method.vsvSize,
-                   "voxels of a shadow volume, ALPHAxTHETAxPHI; PHI a multiple of 128")
-      ->capture_default_str();
-  verb->add_option("--vsv-fit", flags->method.vsvFit, "what a volume covers: frustum or full")->capture_default_str();
+  addCullFlag(*verb, flags->map);
+  addMapOptionFlags(*verb, flags->map, {&kVolumeSize, &kVolumeFit});
   verb->add_option("--repeats", flags->repeats, "rounds; medians are told")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -72,6 +65,14 @@ Run addBenchVerb(CLI::App& app) {
   verb->add_option("--json", flags->json, "write the numbers here");
   verb->add_option("--svg", flags->svg, "write the curves of the growth here");
   return [flags] { return runBenchVerb(*flags); };
+}
+
+}  // namespace
+
+Verb benchVerb() {
+  return {.name = "bench",
+          .sentence = "what every stage costs, as ratios of one run, and how that grows; default scene: atrium",
+          .add = add};
 }
 
 }  // namespace gnomon

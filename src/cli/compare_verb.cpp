@@ -1,7 +1,9 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
-#include "cli/common_flags.h"
+#include "cli/method_flags.h"
+#include "cli/scene_flags.h"
+#include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/compare/results.h"
 #include "lab/compare/table.h"
@@ -59,12 +61,8 @@ int runCompare(const CompareFlags& flags) {
   return 0;
 }
 
-}  // namespace
-
-Run addCompareVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<CompareFlags>();
-  CLI::App* verb =
-      app.add_subcommand("compare", "every chosen map x bias against the exact shadow: table, pictures, results.json");
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "all");
   verb->add_option("-o,--out", flags->out, "folder for report.html, pictures and results.json; none: the table only");
@@ -79,6 +77,14 @@ Run addCompareVerb(CLI::App& app) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   return [flags] { return runCompare(*flags); };
+}
+
+}  // namespace
+
+Verb compareVerb() {
+  return {.name = "compare",
+          .sentence = "every chosen map x bias against the exact shadow: table, pictures, results.json",
+          .add = add};
 }
 
 }  // namespace gnomon

@@ -1,6 +1,8 @@
 #include "base/error.h"
 #include "base/file.h"
-#include "cli/common_flags.h"
+#include "cli/map_flags.h"
+#include "cli/scene_flags.h"
+#include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/core/maps.h"
 #include "lab/fog/fog.h"
@@ -8,6 +10,7 @@
 #include "lab/fog/fog_pictures.h"
 #include "lab/fog/fog_report.h"
 #include "lab/page/report.h"
+#include "vsv/volume_parameterization.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +27,7 @@ namespace {
 
 struct FogFlags {
   SceneFlags scene;
-  MethodFlags method;  // --map-size, --cull and those of volumes
+  MapFlags map;  // --map-size, --cull and those of volumes
   std::string out, json;
   bool truth = false, noCache = false;
   std::optional<double> bound;
@@ -96,10 +99,17 @@ int parseSteps(const std::string& text) {
   return static_cast<int>(*value);
 }
 
+std::string marchMaps() {
+  std::string names;
+  for (const Parameterization* map : parameterizations())
+    if (map->looksAround()) names += (names.empty() ? "" : " or ") + std::string(map->name());
+  return names;
+}
+
 const Parameterization* parseMarchMap(const std::string& name) {
-  if (name != "cube" && name != "paraboloid")
-    throw UsageError(fmt::format("--march-map {}: choose cube or paraboloid", name));
-  return parseMaps(name).front();
+  for (const Parameterization* map : parameterizations())
+    if (map->looksAround() && map->name() == name) return map;
+  throw UsageError(fmt::format("--march-map {}: choose {}", name, marchMaps()));
 }
 
 // A picture where -o names one, else a folder.
@@ -158,15 +168,13 @@ FogOptions fogOptions(const FogFlags& flags) {
   FogOptions options{.integrators = chosenIntegrators(flags.integrators, compares),
                      .steps = parseList("--steps", flags.steps, parseSteps),
                      .marchMap = parseMarchMap(flags.marchMap),
-                     .mapSide = flags.method.mapSize,
-                     .cull = parseCullMode(flags.method.cull),
+                     .map = flags.map.options,
+                     .mapSide = flags.map.mapSize,
+                     .cull = parseCullMode(flags.map.cull),
                      .medium = fogMedium(flags),
                      .truth = flags.truth,
                      .cache = !flags.noCache,
                      .repeats = flags.repeats};
-  options.map.volumeSize = parseVolumeSize(flags.method.vsvSize);
-  options.map.volumeSource = parseVolumeSource(flags.method.vsvSource);
-  options.map.volumeFit = parseVolumeFit(flags.method.vsvFit);
   options.reference.bound = flags.bound.value_or(flags.density.empty() ? kBound : kDensityBound);
   if (!(options.reference.bound >= 1e-6 && options.reference.bound <= 1.0))
     throw UsageError(fmt::format("--bound {}: a share of the picture's mean, 1e-6..1", options.reference.bound));
@@ -231,12 +239,8 @@ void addMediumFlags(CLI::App& verb, FogFlags& flags) {
       ->capture_default_str();
 }
 
-}  // namespace
-
-Run addFogVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<FogFlags>();
-  CLI::App* verb = app.add_subcommand(
-      "fog", "light shafts in a medium: pictures, and each way to integrate them against a traced reference");
   addSceneFlags(*verb, flags->scene);
   verb->add_option("-o,--out", flags->out,
                    "a picture, .exr (cd/m^2) or .png (exposed), of the first of --integrators; or a folder for "
@@ -251,17 +255,15 @@ Run addFogVerb(CLI::App& app) {
   verb->add_option("--integrators", flags->integrators, integratorsHelp());
   verb->add_option("--steps", flags->steps, "samples a view ray of a march; in a density, of every way to integrate")
       ->capture_default_str();
-  verb->add_option("--march-map", flags->marchMap, "what a march looks shadows up in: cube or paraboloid")
+  verb->add_option("--march-map", flags->marchMap, "what a march looks shadows up in: " + marchMaps())
       ->capture_default_str();
   addMediumFlags(*verb, *flags);
-  addVolumeFlags(*verb, flags->method);
-  verb->add_option("--map-size", flags->method.mapSize,
+  addMapOptionFlags(*verb, flags->map, volumeParameterization().options());
+  verb->add_option("--map-size", flags->map.mapSize,
                    "side of a layer of the march's map, and of the cube map of --vsv-source resample; texels")
       ->check(CLI::Range(2, 16384))
       ->capture_default_str();
-  verb->add_option("--cull", flags->method.cull,
-                   "solids: closed one-sided meshes cast by their lit faces only; none: everything casts")
-      ->capture_default_str();
+  addCullFlag(*verb, flags->map);
   verb->add_option("--frames", flags->frames, "pictures along --move; with --truth also their flicker");
   verb->add_option("--move", flags->move,
                    "light:x,y,z or camera:x,y,z: metres by which it moves from the first frame to the last");
@@ -269,6 +271,14 @@ Run addFogVerb(CLI::App& app) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   return [flags] { return runFogVerb(*flags); };
+}
+
+}  // namespace
+
+Verb fogVerb() {
+  return {.name = "fog",
+          .sentence = "light shafts in a medium: pictures, and each way to integrate them against a traced reference",
+          .add = add};
 }
 
 }  // namespace gnomon

@@ -69,12 +69,8 @@ void printScene(const std::string& name) {
   }
 }
 
-}  // namespace
-
-Run addInfoVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto scene = std::make_shared<std::string>();
-  CLI::App* verb = app.add_subcommand(
-      "info", "devices, driver, versions, limits; of a scene: meshes, solids, sheets, lights, cameras");
   verb->add_option("SCENE", *scene, "a glTF file or a generated scene");
   return [scene] {
     if (scene->empty())
@@ -83,6 +79,14 @@ Run addInfoVerb(CLI::App& app) {
       printScene(*scene);
     return 0;
   };
+}
+
+}  // namespace
+
+Verb infoVerb() {
+  return {.name = "info",
+          .sentence = "devices, driver, versions, limits; of a scene: meshes, solids, sheets, lights, cameras",
+          .add = add};
 }
 
 }  // namespace gnomon

@@ -1,10 +1,13 @@
 // gnomon: exit code 0 done, 1 the world failed, 2 wrong usage, 3 a --fail-if was crossed, or vsv --validate
 // found a volume that its source does not imply.
 
+#include "base/check.h"
 #include "base/error.h"
+#include "cli/typed_command.h"
 #include "cli/verbs.h"
-#include "lab/compare/results.h"
+#include "lab/results/schema.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -28,12 +31,11 @@ int parseAndRun(int argc, char** argv) {
       "GNOMON_CACHE_DIR holds "
       "compiled shaders (empty: no cache).");
   app.option_defaults()->always_capture_default(false);
-  std::vector<std::pair<const char*, Run>> verbs = {
-      {"compare", addCompareVerb(app)}, {"render", addRenderVerb(app)},
-      {"report", addReportVerb(app)},   {"fog", addFogVerb(app)},
-      {"vsv", addVsvVerb(app)},         {"scene", addSceneVerb(app)},
-      {"bench", addBenchVerb(app)},     {"reproduce", addReproduceVerb(app)},
-      {"info", addInfoVerb(app)}};
+  std::vector<std::pair<const CLI::App*, Run>> runs;
+  for (const Verb& verb : verbs()) {
+    CLI::App* added = app.add_subcommand(verb.name, verb.sentence);
+    runs.emplace_back(added, verb.add(added));
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -41,9 +43,9 @@ int parseAndRun(int argc, char** argv) {
     std::fprintf(stderr, "gnomon: %s (see gnomon --help)\n", error.what());
     return 2;
   }
-  for (const auto& [name, run] : verbs)
-    if (app.got_subcommand(name)) return run();
-  return 2;
+  const auto given = std::ranges::find_if(runs, [](const auto& run) { return run.first->parsed(); });
+  GNOMON_CHECK(given != runs.end());  // require_subcommand saw to it
+  return given->second();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/image.h"
-#include "cli/common_flags.h"
+#include "cli/method_flags.h"
+#include "cli/scene_flags.h"
 #include "cli/verbs.h"
 #include "lab/compare/render_picture.h"
 
@@ -42,20 +43,23 @@ int runRender(const RenderFlags& flags) {
   return 0;
 }
 
-}  // namespace
-
-Run addRenderVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
-  CLI::App* verb = app.add_subcommand("render", "one picture of one configuration, PNG or EXR");
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "adaptive");
   verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")->required();
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
-                   "layer-gap or density (texels per square metre)")
+                   "layer-gap or texel-density (texels per square metre)")
       ->check(CLI::IsMember(picturesToShow()))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };
+}
+
+}  // namespace
+
+Verb renderVerb() {
+  return {.name = "render", .sentence = "one picture of one configuration, PNG or EXR", .add = add};
 }
 
 }  // namespace gnomon

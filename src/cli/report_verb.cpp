@@ -23,14 +23,17 @@ int runReport(const ReportFlags& flags) {
   return 0;
 }
 
-}  // namespace
-
-Run addReportVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<ReportFlags>();
-  CLI::App* verb = app.add_subcommand("report", "one self-contained HTML page of what compare wrote into a folder");
   verb->add_option("DIR", flags->folder, "a folder that gnomon compare -o wrote")->required();
   verb->add_option("-o,--out", flags->out, "the page: FILE.html")->required();
   return [flags] { return runReport(*flags); };
+}
+
+}  // namespace
+
+Verb reportVerb() {
+  return {.name = "report", .sentence = "one self-contained HTML page of what compare wrote into a folder", .add = add};
 }
 
 }  // namespace gnomon

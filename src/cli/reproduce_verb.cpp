@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
-#include "cli/common_flags.h"
+#include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/paper/reproduce.h"
 
@@ -34,12 +34,8 @@ int runReproduce(const ReproduceFlags& flags) {
   return 0;
 }
 
-}  // namespace
-
-Run addReproduceVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<ReproduceFlags>();
-  CLI::App* verb =
-      app.add_subcommand("reproduce", "a paper's figures and tables made again, and whether its claims hold here");
   std::string papers;
   for (const std::string& paper : reproduciblePapers()) papers += (papers.empty() ? "" : " or ") + paper;
   verb->add_option("PAPER", flags->options.paper, papers)->required();
@@ -59,6 +55,14 @@ Run addReproduceVerb(CLI::App& app) {
   verb->add_flag_callback(
       "--quiet", [] { Progress::setQuiet(true); }, "no progress on the terminal");
   return [flags] { return runReproduce(*flags); };
+}
+
+}  // namespace
+
+Verb reproduceVerb() {
+  return {.name = "reproduce",
+          .sentence = "a paper's figures and tables made again, and whether its claims hold here",
+          .add = add};
 }
 
 }  // namespace gnomon

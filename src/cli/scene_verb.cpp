@@ -63,12 +63,8 @@ int runScene(const SceneVerbFlags& flags) {
   return flags.name.empty() ? listScenes() : writeScene(flags);
 }
 
-}  // namespace
-
-Run addSceneVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<SceneVerbFlags>();
-  CLI::App* verb = app.add_subcommand(
-      "scene", "write a generated scene as glTF, or a density as OpenVDB; without a name, list them");
   verb->add_option("NAME", flags->name, "a generated scene, `crowd:N` for about N triangles");
   verb->add_option("-o,--out", flags->out, "FILE.glb, or FILE.vdb of a density");
   CLI::Option* density = verb->add_option("--density", flags->density, "a generated density instead of a scene");
@@ -77,6 +73,14 @@ Run addSceneVerb(CLI::App& app) {
       ->needs(density);
   verb->add_option("--seed", flags->seed, "of noise")->capture_default_str()->needs(density);
   return [flags] { return runScene(*flags); };
+}
+
+}  // namespace
+
+Verb sceneVerb() {
+  return {.name = "scene",
+          .sentence = "write a generated scene as glTF, or a density as OpenVDB; without a name, list them",
+          .add = add};
 }
 
 }  // namespace gnomon

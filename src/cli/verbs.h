@@ -1,8 +1,9 @@
 #pragma once
-// The verbs of the program: each adds its subcommand and, when it was called, runs. What it returns is the
-// exit code; WorldError and UsageError are caught in main.
+// The verbs of the program. Each declares itself in a file of its own; verbs.cpp has the list. WorldError and UsageError
+// are caught in main.
 
 #include <functional>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -10,20 +11,16 @@ class App;
 
 namespace gnomon {
 
-// Called once the command line is parsed.
+// Called once the command line is parsed; returns the exit code.
 using Run = std::function<int()>;
 
-// The command line as it was typed, for reports.
-void setCommandLine(int argc, char** argv);
+struct Verb {
+  const char* name;
+  const char* sentence;        // for --help
+  Run (*add)(CLI::App* verb);  // adds its flags
+};
 
-Run addCompareVerb(CLI::App& app);
-Run addRenderVerb(CLI::App& app);
-Run addReportVerb(CLI::App& app);
-Run addVsvVerb(CLI::App& app);
-Run addFogVerb(CLI::App& app);
-Run addSceneVerb(CLI::App& app);
-Run addInfoVerb(CLI::App& app);
-Run addBenchVerb(CLI::App& app);
-Run addReproduceVerb(CLI::App& app);
+// In the order of --help.
+const std::vector<Verb>& verbs();
 
 }  // namespace gnomon

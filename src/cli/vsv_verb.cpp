@@ -1,9 +1,12 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
-#include "cli/common_flags.h"
+#include "cli/map_flags.h"
+#include "cli/scene_flags.h"
+#include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/volume/volume_report.h"
+#include "vsv/volume_parameterization.h"
 
 #include <cstdio>
 #include <memory>
@@ -17,7 +20,7 @@ namespace {
 
 struct VsvFlags {
   SceneFlags scene;
-  MethodFlags method;  // --map-size, --cull and those of volumes
+  MapFlags map;  // --map-size, --cull and those of volumes
   bool validate = false;
   std::string out;
   std::string json;
@@ -26,15 +29,13 @@ struct VsvFlags {
 };
 
 VolumeOptions volumeOptions(const VsvFlags& flags) {
-  VolumeOptions options{.mapSide = flags.method.mapSize,
-                        .cull = parseCullMode(flags.method.cull),
+  VolumeOptions options{.map = flags.map.options,
+                        .mapSide = flags.map.mapSize,
+                        .cull = parseCullMode(flags.map.cull),
                         .validate = flags.validate,
                         .outDir = flags.out,
                         .vdb = flags.vdb,
                         .command = commandLine()};
-  options.map.volumeSize = parseVolumeSize(flags.method.vsvSize);
-  options.map.volumeSource = parseVolumeSource(flags.method.vsvSource);
-  options.map.volumeFit = parseVolumeFit(flags.method.vsvFit);
   if (!flags.vdb.empty() && options.vdb.extension() != ".vdb")
     throw UsageError(fmt::format("--vdb {}: write a .vdb", flags.vdb));
   if (flags.vdbVoxel) {
@@ -62,21 +63,15 @@ int runVsv(const VsvFlags& flags) {
   return 3;
 }
 
-}  // namespace
-
-Run addVsvVerb(CLI::App& app) {
+Run add(CLI::App* verb) {
   auto flags = std::make_shared<VsvFlags>();
-  CLI::App* verb =
-      app.add_subcommand("vsv", "a voxelized shadow volume: build it, check it on the CPU, write it as .vdb");
   addSceneFlags(*verb, flags->scene);
-  addVolumeFlags(*verb, flags->method);
-  verb->add_option("--map-size", flags->method.mapSize,
+  addMapOptionFlags(*verb, flags->map, volumeParameterization().options());
+  verb->add_option("--map-size", flags->map.mapSize,
                    "side of the cube map that --vsv-source resample looks columns up in, texels")
       ->check(CLI::Range(2, 16384))
       ->capture_default_str();
-  verb->add_option("--cull", flags->method.cull,
-                   "solids: closed one-sided meshes cast by their lit faces only; none: everything casts")
-      ->capture_default_str();
+  addCullFlag(*verb, flags->map);
   verb->add_flag("--validate", flags->validate,
                  "check every voxel against what the same map implies (exit code 3 where one differs beyond "
                  "rounding) and every column against a traced ray");
@@ -87,6 +82,14 @@ Run addVsvVerb(CLI::App& app) {
   verb->add_option("--vdb-voxel", flags->vdbVoxel,
                    "edge of the density's voxels, metres; default: of the volume's mean voxel");
   return [flags] { return runVsv(*flags); };
+}
+
+}  // namespace
+
+Verb vsvVerb() {
+  return {.name = "vsv",
+          .sentence = "a voxelized shadow volume: build it, check it on the CPU, write it as .vdb",
+          .add = add};
 }
 
 }  // namespace gnomon

@@ -78,12 +78,18 @@ void checkPush(const Program& program, std::span<const std::byte> push) {
                   fmt::format("the {} bytes that it declares", program.interface().pushConstantBytes));
 }
 
+void recordPush(VkCommandBuffer commands, const Program& program, std::span<const std::byte> push) {
+  checkPush(program, push);
+  if (push.empty()) return;
+  vkCmdPushConstants(commands, program.layout(), program.interface().pushConstantStages, 0,
+                     static_cast<uint32_t>(push.size()), push.data());
+}
+
 // Binds the pipeline, every descriptor and the push constants.
 void recordProgram(const Device& device, VkCommandBuffer commands, const Program& program,
                    std::span<const std::byte> push, const std::vector<Binding>& given) {
   GNOMON_CHECK(program.pipeline() != VK_NULL_HANDLE);
   checkBindings(program, given);
-  checkPush(program, push);
   vkCmdBindPipeline(commands, program.bindPoint(), program.pipeline());
   const std::vector<ProgramInterface::Binding>& declared = program.interface().bindings;
   std::vector<VkDescriptorBufferInfo> buffers(declared.size());
@@ -109,9 +115,7 @@ void recordProgram(const Device& device, VkCommandBuffer commands, const Program
   if (!writes.empty())
     device.functions().pushDescriptorSet(commands, program.bindPoint(), program.layout(), 0,
                                          static_cast<uint32_t>(writes.size()), writes.data());
-  if (!push.empty())
-    vkCmdPushConstants(commands, program.layout(), program.interface().pushConstantStages, 0,
-                       static_cast<uint32_t>(push.size()), push.data());
+  recordPush(commands, program, push);
 }
 
 VkRenderingAttachmentInfo attachment(const Image& image, std::optional<uint32_t> layer,
@@ -127,10 +131,13 @@ VkRenderingAttachmentInfo attachment(const Image& image, std::optional<uint32_t>
 }
 
 VkExtent2D extentOf(const RenderTargets& targets) {
-  const Image* first = targets.depth ? targets.depth : targets.colors.empty() ? nullptr : targets.colors[0].image;
+  const Image* first = targets.depth;
+  for (const ColorTarget& color : targets.colors)
+    if (first == nullptr) first = color.image;
   GNOMON_CHECK(first != nullptr);
   const VkExtent2D extent{first->desc().width, first->desc().height};
   for (const ColorTarget& color : targets.colors) {
+    if (color.image == nullptr) continue;
     GNOMON_CHECK_EQ(color.image->desc().width, extent.width);
     GNOMON_CHECK_EQ(color.image->desc().height, extent.height);
   }
@@ -219,7 +226,8 @@ void Commands::beginRendering(const RenderTargets& targets) {
   for (const ColorTarget& color : targets.colors) {
     std::optional<VkClearValue> clear;
     if (color.clear) clear = VkClearValue{.color = *color.clear};
-    colors.push_back(attachment(*color.image, targets.layer, clear));
+    colors.push_back(color.image != nullptr ? attachment(*color.image, targets.layer, clear)
+                                            : VkRenderingAttachmentInfo{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO});
   }
   VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
   info.renderArea.extent = extent;
@@ -249,6 +257,11 @@ void Commands::bind(const GraphicsProgram& program, std::span<const std::byte> p
                     const std::vector<Binding>& bindings) {
   GNOMON_CHECK(inRendering_);
   recordProgram(device_, commands_, program, push, bindings);
+}
+
+void Commands::push(const GraphicsProgram& program, std::span<const std::byte> push) {
+  GNOMON_CHECK(inRendering_);
+  recordPush(commands_, program, push);
 }
 
 void Commands::setCulling(VkCullModeFlags mode, VkFrontFace front) {

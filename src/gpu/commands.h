@@ -24,7 +24,7 @@ struct Binding {
 };
 
 struct ColorTarget {
-  const Image* image = nullptr;
+  const Image* image = nullptr;            // none: what fragments write here goes nowhere
   std::optional<VkClearColorValue> clear;  // absent: keep what is there
 };
 
@@ -71,6 +71,8 @@ class Commands {
   // Viewport and scissor cover the targets; culling is off until setCulling.
   void beginRendering(const RenderTargets& targets);
   void bind(const GraphicsProgram& program, std::span<const std::byte> push, const std::vector<Binding>& bindings);
+  // Other push constants for the program that is bound.
+  void push(const GraphicsProgram& program, std::span<const std::byte> push);
   void setCulling(VkCullModeFlags mode, VkFrontFace front);
   void bindIndexBuffer(const Buffer& buffer);  // 32-bit indices
   void drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex, int32_t vertexOffset,

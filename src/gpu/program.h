@@ -79,7 +79,7 @@ struct GraphicsDesc {
   ShaderSource vertex;
   ShaderSource fragment;  // an empty path: depth only
   std::vector<Specialization> specializations;
-  std::vector<VkFormat> colorFormats;  // of the attachments
+  std::vector<VkFormat> colorFormats;  // of the attachments; VK_FORMAT_UNDEFINED where there is none
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;
   VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
   bool depthWrite = true;

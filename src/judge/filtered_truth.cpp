@@ -1,9 +1,9 @@
 #include "judge/filtered_truth.h"
 
+#include "base/check.h"
 #include "truth/continuity.h"
 
 #include "shared/bias.glsl"
-#include "shared/filter.glsl"
 
 #include <array>
 #include <limits>
@@ -23,7 +23,7 @@ struct Kernel {
   const LightRays& rays;
   glm::dmat3 worldFromLight;
   double margin;
-  int kind;
+  const ChosenFilter& filter;
 };
 
 RayD rayToWorld(const Kernel& kernel, const glsl::Ray& ray) {
@@ -48,7 +48,10 @@ float filteredPixel(const Kernel& kernel, const SurfaceSample& sample, bool lit,
   size_t count = 0;
   int litCount = 0;
   for (int i = 0; i < glsl::kKernelSamples; ++i) {
-    const glm::vec2 uv = point.uv + glsl::kernelOffset(kernel.kind, seed, i) / glsl::mapTexelCounts(map);
+    bool known = false;
+    const glm::vec2 offset = glsl::kernelOffset(kernel.filter.id, kernel.filter.params, seed, i, known);
+    GNOMON_CHECK(known);
+    const glm::vec2 uv = point.uv + offset / glsl::mapTexelCounts(map);
     const glsl::Ray rayL = glsl::mapTexelRay(map, point.layer, uv);
     const RayD ray = rayToWorld(kernel, rayL);
     const double approach = glm::dot(sample.normalW, ray.dir);
@@ -68,7 +71,7 @@ float filteredPixel(const Kernel& kernel, const SurfaceSample& sample, bool lit,
 }  // namespace
 
 std::vector<float> computeFilteredTruth(const Tracer& tracer, const LightModel& light, const Receivers& receivers,
-                                        const Truth& truth, const FittedMap& fitted, int kind) {
+                                        const Truth& truth, const FittedMap& fitted, const ChosenFilter& filter) {
   const LightRays rays(tracer.scene(), light);
   const Kernel kernel{.tracer = tracer,
                       .fitted = fitted,
@@ -76,7 +79,7 @@ std::vector<float> computeFilteredTruth(const Tracer& tracer, const LightModel& 
                       .worldFromLight = glm::dmat3(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
                                                    glm::dvec3(fitted.frame.backW)),
                       .margin = truth.margin,
-                      .kind = kind};
+                      .filter = filter};
   std::vector<float> visibility(truth.lit.size(), 0.0f);
   tbb::parallel_for(0, receivers.height, [&](int y) {
     for (int x = 0; x < receivers.width; ++x) {
@@ -85,7 +88,7 @@ std::vector<float> computeFilteredTruth(const Tracer& tracer, const LightModel& 
       if (receivers.states[i] == PixelState::Empty)
         visibility[i] = 1.0f;
       else if (receivers.states[i] == PixelState::Scored)
-        visibility[i] = kind == glsl::kFilterNone
+        visibility[i] = filter.id == glsl::kShadowFilterNone
                             ? (lit ? 1.0f : 0.0f)
                             : filteredPixel(kernel, receivers.samples[i], lit, glsl::pixelSeed({x, y}));
     }

@@ -7,14 +7,15 @@
 // (truth/labels.h): at a crease the plane runs on behind the wall, and nothing there casts a shadow. A ray that
 // does not meet the plane between the map's near and far ends says what the receiver's own said.
 
+#include "shadow/filter.h"
 #include "shadow/parameterization.h"
 #include "truth/visibility.h"
 
 namespace gnomon {
 
-// One value a pixel, 0..1; 1 where there is no surface, 0 where a surface is not scored. `kind`: kFilter*.
+// One value a pixel, 0..1; 1 where there is no surface, 0 where a surface is not scored.
 // All cores; deterministic.
 std::vector<float> computeFilteredTruth(const Tracer& tracer, const LightModel& light, const Receivers& receivers,
-                                        const Truth& truth, const FittedMap& fitted, int kind);
+                                        const Truth& truth, const FittedMap& fitted, const ChosenFilter& filter);
 
 }  // namespace gnomon

@@ -34,11 +34,7 @@ std::vector<glm::dvec3> scoredPoints(const Receivers& receivers) {
 }  // namespace
 
 Method atDefaults(const BiasMethod& bias, const SceneView& view) {
-  const float sceneScale = view.sceneScale();
-  Method method{.bias = &bias, .params = defaultBiasParams(sceneScale)};
-  for (const BiasKnob& knob : bias.knobs)  // a user's knob is in no list
-    method.params.*knob.field = knob.defaultValue * (knob.defaultOfSceneScale ? sceneScale : 1.0f);
-  return method;
+  return {.bias = &bias, .params = defaultBiasParams(bias, view.sceneScale())};
 }
 
 Verdict verdictOf(const glsl::PixelDiagnosis& pixel) {
@@ -101,34 +97,34 @@ double LightOnMap::fitMs() const {
   return fit().ms;
 }
 
-const Occluders& LightOnMap::occluders(MapContent content) {
-  const auto found = occluders_.find(content);
+const Occluders& LightOnMap::occluders(ChannelSet channels) {
+  const auto found = occluders_.find(channels);
   if (found != occluders_.end()) return *found->second;
-  occluders_.emplace(content, map_.createOccluders(view_.device(), fitted(), content));
-  redraw(content);
-  return *occluders_.at(content);
+  occluders_.emplace(channels, map_.createOccluders(view_.device(), fitted(), channels));
+  redraw(channels);
+  return *occluders_.at(channels);
 }
 
-double LightOnMap::redraw(MapContent content) {
-  occluders(content);
+double LightOnMap::redraw(ChannelSet channels) {
+  occluders(channels);
   gpu::Commands commands(view_.device(), "shadow map");
-  occluders_.at(content)->recordDrawing(commands, passes_.maps, view_.buffers(), light_, setup_.cull);
+  occluders_.at(channels)->recordDrawing(commands, passes_.maps, view_.buffers(), light_, setup_.cull);
   return commands.submitAndWait().wallMs;
 }
 
 double LightOnMap::timeLookup(const Method& method, const ShadowLookup& lookup) {
-  const Occluders& drawn = occluders(method.bias->content);
+  const Occluders& drawn = occluders(method.bias->channels);
   passes_.visibility.setUniforms(shadeUniforms(view_.view(), light_, method.params));
   gpu::Commands commands(view_.device(), lookup.diagnose ? "visibility, diagnosed" : "visibility");
   drawn.recordVisibility(commands, view_.buffers(), view_.gbuffer(), passes_.visibility, lookup);
   return commands.submitAndWait().wallMs;
 }
 
-double LightOnMap::timeVisibility(const Method& method, int filter) {
+double LightOnMap::timeVisibility(const Method& method, const ChosenFilter& filter) {
   return timeLookup(method, {.bias = *method.bias, .filter = filter});
 }
 
-std::vector<float> LightOnMap::visibility(const Method& method, int filter) {
+std::vector<float> LightOnMap::visibility(const Method& method, const ChosenFilter& filter) {
   timeVisibility(method, filter);
   return gpu::downloadAs<float>(view_.device(), passes_.visibility.visibility());
 }
@@ -158,7 +154,7 @@ LabelledResult LightOnMap::judge(const Method& method) {
   return result;
 }
 
-std::vector<float> LightOnMap::filteredTruth(int filter) const {
+std::vector<float> LightOnMap::filteredTruth(const ChosenFilter& filter) const {
   return computeFilteredTruth(view_.tracer(), light_, receivers(), truth(), fitted(), filter);
 }
 

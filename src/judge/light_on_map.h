@@ -81,20 +81,21 @@ class LightOnMap {
   const FittedMap& fitted() const;
   double fitMs() const;  // wall clock, milliseconds
 
-  // Drawn with what a bias reads of them (BiasMethod::content).
-  const Occluders& occluders(MapContent content = MapContent::OneLayer);
+  // Drawn with what a bias reads of them (BiasMethod::channels).
+  const Occluders& occluders(ChannelSet channels = glsl::kChannelDepth);
   // Wall clock of drawing them once more, milliseconds.
-  double redraw(MapContent content = MapContent::OneLayer);
+  double redraw(ChannelSet channels = glsl::kChannelDepth);
 
-  // One value a pixel, through a filter (kFilter*).
-  std::vector<float> visibility(const Method& method, int filter = glsl::kFilterNone);
-  double timeVisibility(const Method& method, int filter = glsl::kFilterNone);  // wall clock, milliseconds
+  // One value a pixel, through a filter.
+  std::vector<float> visibility(const Method& method, const ChosenFilter& filter = glsl::kShadowFilterNone);
+  double timeVisibility(const Method& method,
+                        const ChosenFilter& filter = glsl::kShadowFilterNone);  // wall clock, milliseconds
   // Of the unfiltered map: how each pixel was decided, and by which texel.
   std::vector<glsl::PixelDiagnosis> diagnose(const Method& method);
   LabelledResult judge(const Method& method);
 
   // The truth through a filter (filtered_truth.h), and texels a square metre of each pixel's surface (texel_density.h).
-  std::vector<float> filteredTruth(int filter) const;
+  std::vector<float> filteredTruth(const ChosenFilter& filter) const;
   std::vector<float> texelDensities() const;
 
   // So that a typical lit surface is neither dark nor burnt: a white one that faces the light at the median distance of
@@ -120,7 +121,7 @@ class LightOnMap {
   const LightModel light_;
   mutable std::shared_ptr<const GroundTruth> truth_;
   mutable std::optional<Fit> fit_;
-  std::map<MapContent, std::unique_ptr<Occluders>> occluders_;
+  std::map<ChannelSet, std::unique_ptr<Occluders>> occluders_;
 };
 
 }  // namespace gnomon

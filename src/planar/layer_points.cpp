@@ -2,6 +2,7 @@
 
 #include "planar/cascades.h"
 #include "planar/convex_body.h"
+#include "planar/planar_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,10 +87,10 @@ std::vector<std::vector<glm::dvec2>> layerPoints(const FitInput& input, const Ax
   const std::vector<Slice> slices = viewSlices(input, cascadeCount);
   std::vector<Points> layers(slices.size());
   for (size_t i = 0; i < slices.size(); ++i) {
-    const bool whole = input.options.fit == WindowFit::None && i + 1 == slices.size();
+    const bool whole = input.options.get(kWindowFit) == WindowFit::None && i + 1 == slices.size();
     if (whole)
       addWhole(layers[i], input, frame, sceneBounds);
-    else if (input.options.fit != WindowFit::Focused)
+    else if (input.options.get(kWindowFit) != WindowFit::Focused)
       addTight(layers[i], input, frame, sceneBounds, slices[i]);
   }
   // Receivers are in every fit: what rounds out of a body's edge is covered all the same.

@@ -1,5 +1,6 @@
 #include "planar/planar_map.h"
 
+#include "base/error.h"
 #include "planar/layer_points.h"
 #include "planar/warp.h"
 #include "planar/window.h"
@@ -8,9 +9,45 @@
 #include <cmath>
 #include <functional>
 
+#include <fmt/format.h>
+
 namespace gnomon {
 
+constinit const ChoiceOption<WindowFit> kWindowFit(
+    {.name = "fit", .sentence = "what spot and directional maps enclose", .results = InResults::EveryRow},
+    WindowFit::Focused,
+    {{WindowFit::None, "none", "the whole cone or scene"},
+     {WindowFit::Tight, "tight", "the camera's frustum cut to the scene"},
+     {WindowFit::Focused, "focused", "the surfaces the camera sees and the light faces"}});
+
+constinit const ChoiceOption<bool> kSnap(
+    {.name = "snap",
+     .sentence = "texels of spot and directional maps keep their places in the world while the camera moves, for up to "
+                 "9% of the resolution; warped maps cannot snap",
+     .results = InResults::EveryRow,
+     .told =
+         [](const MapOptions& options) { return kSnap.text(options.get(kSnap) && options.get(kWarp) == Warp::None); }},
+    true, {{false, "off", "the window itself"}, {true, "on", "a grid that is fixed in the world"}});
+
+constinit const NumberOption kCascades(
+    {.name = "cascades",
+     .sentence = "layers of a directional map, split by the practical scheme; not with --warp",
+     .results = InResults::EveryRow},
+    1, 1, kMostCascades);
+
 namespace {
+
+std::vector<const MapOption*> planarOptions() {
+  return {&kWindowFit, &kSnap, &kWarp, &kCascades};
+}
+
+// A warp would shape every cascade to the whole view.
+void checkPlanarOptions(const MapOptions& options) {
+  kCascades.check(options.get(kCascades));
+  if (options.get(kCascades) > 1 && options.get(kWarp) != Warp::None)
+    throw UsageError(fmt::format("{} {} with {} {}: choose one of them; cascades are not warped", kCascades.flag(),
+                                 options.text(kCascades), kWarp.flag(), options.text(kWarp)));
+}
 
 // The near and far ends are kept clear of the surfaces they were fitted to by a share of the range, far more
 // than what 32-bit matrices round (1e-6) and far less than what costs precision.
@@ -108,13 +145,13 @@ LayerFit fitDepth(const FitInput& input, const AxisFrame& frame, const Bounds& b
   const double sceneScale = std::max(static_cast<double>(bounds.diagonal()), 1e-6);
   const double least = frame.perspective ? leastCasterDepth(bounds) : -4.0 * sceneScale;
   const std::vector<Covered> receivers = coveredReceivers(input, frame, clipFromPlane);
-  const bool whole = input.options.fit != WindowFit::Focused || receivers.empty();
+  const bool whole = input.options.get(kWindowFit) != WindowFit::Focused || receivers.empty();
   LayerFit layer{.clipFromPlane = clipFromPlane, .zFar = frame.perspective ? least : -4.0 * sceneScale};
   for (const Covered& receiver : receivers) layer.zFar = std::max(layer.zFar, receiver.depth);
   if (whole) layer.zFar = farthestCasterDepth(input.scene, frame, clipFromPlane, layer.zFar);
   layer.zNear = nearestCasterDepth(input.scene, frame, clipFromPlane, least, layer.zFar);
-  if (input.options.warp == Warp::None)
-    setDepthRow(layer, frame, sceneScale, input.options.snap);
+  if (input.options.get(kWarp) == Warp::None)
+    setDepthRow(layer, frame, sceneScale, input.options.get(kSnap));
   else
     setWarpedDepthRow(layer, input, frame, sceneScale, receivers, whole);
   return layer;
@@ -127,24 +164,25 @@ glm::dmat3 fitWindow(const FitInput& input, const AxisFrame& frame, std::span<co
   const glm::dvec2 pad =
       (window.upper - window.lower) * (0.5 / input.side) + 1e-6 * (frame.perspective ? 1.0 : sceneScale);
   window = {.lower = window.lower - pad, .upper = window.upper + pad};
-  return clipFromPlane(input.options.snap ? snapWindow(window, input.side) : window);
+  return clipFromPlane(input.options.get(kSnap) ? snapWindow(window, input.side) : window);
 }
 
 FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
-  checkMapOptions(input.options);
+  checkPlanarOptions(input.options);
   const Bounds bounds = computeBounds(input.scene);
   const double sceneScale = std::max(static_cast<double>(bounds.diagonal()), 1e-6);
   const glm::dvec3 origin = perspective ? input.light.positionW : glm::dvec3(bounds.center());
   const AxisFrame frame = axisFrame(origin, input.light.directionW, perspective);
 
+  const Warp warp = input.options.get(kWarp);
   FittedMap fitted;
   std::vector<glm::dmat3> planes;
   for (const std::vector<glm::dvec2>& points : layerPoints(input, frame, bounds, cascadeCount)) {
     WarpedPlane warped;
-    if (input.options.warp != Warp::None) {
+    if (warp != Warp::None) {
       const std::vector<glm::dvec2> hull = convexHull(points);
       warped = warpPlane(
-          input.options.warp,
+          warp,
           {.frame = frame, .camera = input.camera, .points = hull, .receiversW = input.receiversW, .side = input.side});
       fitted.note = warped.note;
     }
@@ -195,6 +233,8 @@ class SpotParameterization final : public Parameterization {
   }
 
   FittedMap fit(const FitInput& input) const override { return fitPlanar(input, true, 1); }
+  std::vector<const MapOption*> options() const override { return planarOptions(); }
+  void checkOptions(const MapOptions& options) const override { checkPlanarOptions(options); }
 };
 
 class DirectionalParameterization final : public Parameterization {
@@ -203,7 +243,7 @@ class DirectionalParameterization final : public Parameterization {
   const char* sentence() const override {
     return "one orthographic layer; a positional light becomes a sun from its side";
   }
-  int layerCount(const MapOptions& options) const override { return options.cascades; }
+  int layerCount(const MapOptions& options) const override { return options.get(kCascades); }
 
   LightSupport supportsLight(LightType type) const override {
     return type == LightType::Directional ? LightSupport::Yes : LightSupport::Fallback;
@@ -216,7 +256,9 @@ class DirectionalParameterization final : public Parameterization {
             .directionW = light.type == LightType::Point ? aimW : glm::normalize(glm::dvec3(light.directionW))};
   }
 
-  FittedMap fit(const FitInput& input) const override { return fitPlanar(input, false, input.options.cascades); }
+  FittedMap fit(const FitInput& input) const override { return fitPlanar(input, false, input.options.get(kCascades)); }
+  std::vector<const MapOption*> options() const override { return planarOptions(); }
+  void checkOptions(const MapOptions& options) const override { checkPlanarOptions(options); }
 };
 
 }  // namespace

@@ -10,6 +10,15 @@
 
 namespace gnomon {
 
+constinit const ChoiceOption<Warp> kWarp({.name = "warp",
+                                          .sentence = "shape the texels of spot and directional maps to the camera",
+                                          .results = InResults::EveryRow},
+                                         Warp::None,
+                                         {{Warp::None, "none", "even texels"},
+                                          {Warp::Psm, "psm", "perspective shadow maps"},
+                                          {Warp::Lispsm, "lispsm", "light space perspective"},
+                                          {Warp::Tsm, "tsm", "trapezoidal"}});
+
 namespace {
 
 // The camera's depths of what it sees, metres.
@@ -141,11 +150,11 @@ WarpedPlane warpAlongAxis(Warp warp, const WarpInput& input) {
   const Extent extent = extentAlong(axis.t, input.points);
   // The warp fades out as the light turns to the view; its whole effect is then below a texel.
   if (axis.sinAngle < 1.0 / input.side || extent.length() <= 0.0)
-    return {.note = fmt::format("{}: the light shines along the view, no warp", warpName(warp))};
+    return {.note = fmt::format("{}: the light shines along the view, no warp", kWarp.text(warp))};
   double n = warp == Warp::Lispsm ? lispsmDistance(input, axis) : tsmDistance(input, axis, extent);
   if (!std::isfinite(n))
     return {.note = fmt::format("{}: the nearer half of what is seen fills 80% of the map without a warp, no warp",
-                                warpName(warp))};
+                                kWarp.text(warp))};
   // Where it is nearer W would vary by more over the points alone; the square is a texel longer, and so its
   // bound is found by trying, in steps that lose at most 5%.
   const double wanted = n;
@@ -158,9 +167,9 @@ WarpedPlane warpAlongAxis(Warp warp, const WarpInput& input) {
     if (!filled) continue;
     return {.clipFromPlane = *filled,
             .warped = true,
-            .note = n > wanted ? fmt::format("{}: weakened, W may vary {:g} times", warpName(warp), kMostWarp) : ""};
+            .note = n > wanted ? fmt::format("{}: weakened, W may vary {:g} times", kWarp.text(warp), kMostWarp) : ""};
   }
-  return {.note = fmt::format("{}: what is seen is too narrow to warp, no warp", warpName(warp))};
+  return {.note = fmt::format("{}: what is seen is too narrow to warp, no warp", kWarp.text(warp))};
 }
 
 // The camera as PSM has it, moved back by `back` metres, with a view frustum about what the first one sees:
@@ -240,7 +249,7 @@ WarpedPlane warpPsm(const WarpInput& input) {
 
 WarpedPlane warpPlane(Warp warp, const WarpInput& input) {
   if (input.receiversW.empty() || input.points.empty())
-    return {.note = fmt::format("{}: the camera sees nothing that faces the light, no warp", warpName(warp))};
+    return {.note = fmt::format("{}: the camera sees nothing that faces the light, no warp", kWarp.text(warp))};
   return warp == Warp::Psm ? warpPsm(input) : warpAlongAxis(warp, input);
 }
 

@@ -21,6 +21,16 @@
 
 namespace gnomon {
 
+// Shapes a planar map's texels to the camera.
+enum class Warp {
+  None,
+  Psm,     // perspective shadow maps: Stamminger and Drettakis 2002
+  Lispsm,  // light space perspective shadow maps: Wimmer, Scherzer, Purgathofer 2004
+  Tsm,     // trapezoidal shadow maps: Martin and Tan 2004
+};
+
+extern const ChoiceOption<Warp> kWarp;
+
 // W's terms round by some 4 ulps of their largest, 2^-22, which where W is least is 64 * 2^-22 = 1.5e-5 of
 // it: an eighth of a texel in a map of 8192.
 inline constexpr double kMostWarp = 64.0;

@@ -103,7 +103,7 @@ class TextureLoader {
 
   void applySampler(int index, glsl::TextureInfo& info) const {
     info.wrapS = info.wrapT = glsl::kWrapRepeat;
-    info.filterMode = glsl::kFilterLinear;
+    info.filterMode = glsl::kTexFilterLinear;
     if (index < 0) return;
     const tinygltf::Sampler& sampler = document_.model().samplers[index];
     const auto wrapOf = [&](int wrap) {
@@ -114,7 +114,7 @@ class TextureLoader {
     };
     info.wrapS = wrapOf(sampler.wrapS);
     info.wrapT = wrapOf(sampler.wrapT);
-    if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) info.filterMode = glsl::kFilterNearest;
+    if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) info.filterMode = glsl::kTexFilterNearest;
   }
 
   const GltfDocument& document_;

@@ -108,7 +108,7 @@ void addTextures(tinygltf::Model& model, const Scene& scene, const std::filesyst
       image.bufferView = addView(model, png.data(), png.size(), 0);
       model.images.push_back(std::move(image));
     }
-    const bool nearest = info.filterMode == glsl::kFilterNearest;
+    const bool nearest = info.filterMode == glsl::kTexFilterNearest;
     tinygltf::Sampler sampler;
     sampler.magFilter = nearest ? TINYGLTF_TEXTURE_FILTER_NEAREST : TINYGLTF_TEXTURE_FILTER_LINEAR;
     sampler.minFilter = sampler.magFilter;

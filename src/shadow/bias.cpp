@@ -1,5 +1,6 @@
 #include "shadow/bias.h"
 
+#include "base/check.h"
 #include "base/error.h"
 
 #include <algorithm>
@@ -12,26 +13,10 @@ namespace gnomon {
 
 using glsl::BiasParams;
 
-const char* unitName(Unit unit) {
-  return unit == Unit::Metres ? "m" : unit == Unit::Texels ? "texels" : "";
-}
-
-const char* contentName(MapContent content) {
-  switch (content) {
-    case MapContent::OneLayer:
-      return "one layer";
-    case MapContent::TwoLayers:
-      return "two layers";
-    case MapContent::BackFaces:
-      return "back faces";
-  }
-  return "";
-}
-
 namespace {
 
 // A knob in metres with a default relative to the scene's diagonal.
-BiasKnob metres(const char* name, float share, const char* sentence, float BiasParams::*field) {
+Knob metres(const char* name, float share, const char* sentence) {
   return {.name = name,
           .unit = Unit::Metres,
           .lower = 0.0f,
@@ -39,7 +24,6 @@ BiasKnob metres(const char* name, float share, const char* sentence, float BiasP
           .defaultValue = share,
           .defaultOfSceneScale = true,
           .sentence = sentence,
-          .field = field,
           .searchLower = 1e-7f,
           .searchUpper = 1e-1f};
 }
@@ -48,11 +32,16 @@ BiasKnob metres(const char* name, float share, const char* sentence, float BiasP
 
 const std::vector<BiasMethod>& biasMethods() {
   static const std::vector<BiasMethod> methods = {
-      {.id = glsl::kBiasNone, .name = "none", .sentence = "No bias at all (Williams 1978).", .knobs = {}},
+      {.id = glsl::kBiasNone,
+       .name = "none",
+       .sentence = "No bias at all (Williams 1978).",
+       .knobs = {},
+       .onVolumes = true},
       {.id = glsl::kBiasConstant,
        .name = "constant",
        .sentence = "Moves the receiver a fixed distance towards the light (Reeves et al. 1987).",
-       .knobs = {metres("offset", 2e-3f, "distance towards the light", &BiasParams::constantOffset)}},
+       .knobs = {metres("offset", 2e-3f, "distance towards the light")},
+       .onVolumes = true},
       {.id = glsl::kBiasSlope,
        .name = "slope",
        .sentence = "Scales with the depth change of the receiver's plane across half a texel (King 2004).",
@@ -63,10 +52,9 @@ const std::vector<BiasMethod>& biasMethods() {
                   .defaultValue = 2.0f,
                   .defaultOfSceneScale = false,
                   .sentence = "times the plane's depth change across half a texel",
-                  .field = &BiasParams::slopeFactor,
                   .searchLower = 1e-2f,
                   .searchUpper = 64.0f},
-                 metres("offset", 1e-4f, "distance towards the light, added", &BiasParams::slopeOffset)}},
+                 metres("offset", 1e-4f, "distance towards the light, added")}},
       {.id = glsl::kBiasNormalOffset,
        .name = "normal-offset",
        .sentence = "Moves the receiver along its normal before it is looked up (Holbert 2011).",
@@ -77,34 +65,31 @@ const std::vector<BiasMethod>& biasMethods() {
                   .defaultValue = 1.5f,
                   .defaultOfSceneScale = false,
                   .sentence = "distance along the normal, times the sine of its angle to the light",
-                  .field = &BiasParams::normalOffsetTexels,
                   .searchLower = 1e-2f,
                   .searchUpper = 64.0f}}},
       {.id = glsl::kBiasCosine,
        .name = "cosine",
        .sentence = "A constant weighted by the angle between normal and light (Gautron et al. 2013).",
-       .knobs = {metres("offset", 4e-3f, "distance towards the light where the surface is edge-on",
-                        &BiasParams::cosineOffset)}},
+       .knobs = {metres("offset", 4e-3f, "distance towards the light where the surface is edge-on")}},
       {.id = glsl::kBiasReceiverPlane,
        .name = "receiver-plane",
        .sentence = "Carries the receiver's depth to the tap along its plane's gradient (Isidoro 2006).",
-       .knobs = {metres("offset", 1e-4f, "distance towards the light, added", &BiasParams::receiverPlaneOffset)}},
+       .knobs = {metres("offset", 1e-4f, "distance towards the light, added")}},
       {.id = glsl::kBiasSecondDepth,
        .name = "second-depth",
        .sentence = "Stores the back faces of solids (Wang & Molnar 1994).",
-       .knobs = {metres("offset", 1e-4f, "distance towards the light, for sheets and contacts",
-                        &BiasParams::secondDepthOffset)},
-       .content = MapContent::BackFaces},
+       .knobs = {metres("offset", 1e-4f, "distance towards the light, for sheets and contacts")},
+       .channels = glsl::kChannelBackDepth},
       {.id = glsl::kBiasMidpoint,
        .name = "midpoint",
        .sentence = "Half way between the two nearest layers (Woo 1992).",
        .knobs = {},
-       .content = MapContent::TwoLayers},
+       .channels = glsl::kChannelDepth | glsl::kChannelSecondDepth},
       {.id = glsl::kBiasDual,
        .name = "dual",
        .sentence = "Half way between the two nearest layers, but at most the offset (Weiskopf & Ertl 2003).",
-       .knobs = {metres("offset", 1e-2f, "upper bound of the bias", &BiasParams::dualOffset)},
-       .content = MapContent::TwoLayers},
+       .knobs = {metres("offset", 1e-2f, "upper bound of the bias")},
+       .channels = glsl::kChannelDepth | glsl::kChannelSecondDepth},
       {.id = glsl::kBiasAdaptive,
        .name = "adaptive",
        .sentence = "Compares where the texel's ray meets the receiver's plane (Dou et al. 2014).",
@@ -116,20 +101,22 @@ const std::vector<BiasMethod>& biasMethods() {
                   .defaultOfSceneScale = false,
                   .sentence =
                       "epsilon as a share of the scene's diagonal (the paper's K), for all three adaptive methods",
-                  .field = &BiasParams::adaptiveK,
                   .searchLower = 1e-7f,
                   .searchUpper = 1e-1f}},
-       .hasEpsilon = true},
+       .takesEpsilonAt = true,
+       .onVolumes = true},
       {.id = glsl::kBiasAdaptiveClamped,
        .name = "adaptive-clamped",
        .sentence = "adaptive, never behind the receiver itself (the authors' shaders).",
        .knobs = {},
-       .hasEpsilon = true},
+       .sharesKnobsWith = "adaptive",
+       .takesEpsilonAt = true},
       {.id = glsl::kBiasAdaptiveEhm,
        .name = "adaptive-ehm",
        .sentence = "adaptive, its epsilon growing as the light grazes (Ehm et al. 2015).",
        .knobs = {},
-       .hasEpsilon = true},
+       .sharesKnobsWith = "adaptive",
+       .takesEpsilonAt = true},
   };
   return methods;
 }
@@ -146,8 +133,8 @@ constexpr std::array<const char*, 3> kEpsilonAtNames = {"fragment", "occluder", 
 
 }  // namespace
 
-const std::vector<BiasKnob>& knobsOf(const BiasMethod& method) {
-  return method.hasEpsilon ? findBias("adaptive").knobs : method.knobs;
+const std::vector<Knob>& knobsOf(const BiasMethod& method) {
+  return method.sharesKnobsWith != nullptr ? findBias(method.sharesKnobsWith).knobs : method.knobs;
 }
 
 const BiasMethod& findBias(const std::string& name) {
@@ -171,13 +158,26 @@ std::vector<const BiasMethod*> parseBiases(const std::string& list) {
   return chosen;
 }
 
-BiasParams defaultBiasParams(float sceneScale) {
-  BiasParams params{};
-  params.epsilonAt = glsl::kEpsilonAtOccluder;
-  for (const BiasMethod& method : biasMethods())
-    for (const BiasKnob& knob : method.knobs)
-      params.*knob.field = knob.defaultValue * (knob.defaultOfSceneScale ? sceneScale : 1.0f);
+BiasParams defaultBiasParams(const BiasMethod& method, float sceneScale) {
+  BiasParams params{.epsilonAt = glsl::kEpsilonAtOccluder};
+  for (const Knob& knob : knobsOf(method)) valueOf(params, method, knob) = knob.defaultFor(sceneScale);
   return params;
+}
+
+bool hasKnob(const BiasMethod& method, const Knob& knob) {
+  return std::ranges::any_of(knobsOf(method), [&](const Knob& own) { return &own == &knob; });
+}
+
+float& valueOf(BiasParams& params, const BiasMethod& method, const Knob& knob) {
+  GNOMON_CHECK(hasKnob(method, knob));
+  const auto place = &knob - knobsOf(method).data();
+  GNOMON_CHECK_LT(place, glsl::kMostKnobs);
+  return params.knobs[place];
+}
+
+float valueOf(const BiasParams& params, const BiasMethod& method, const Knob& knob) {
+  BiasParams copy = params;
+  return valueOf(copy, method, knob);
 }
 
 int parseEpsilonAt(const std::string& name) {

@@ -11,11 +11,22 @@ namespace gnomon {
 
 const std::vector<Filter>& filters() {
   static const std::vector<Filter> all = {
-      {.id = glsl::kFilterNone, .name = "none", .sentence = "the one texel that holds the point"},
-      {.id = glsl::kFilterBilinear, .name = "bilinear", .sentence = "the 2 x 2 texels around it, weighted by distance"},
-      {.id = glsl::kFilterJitter4x4,
+      {.id = glsl::kShadowFilterNone, .name = "none", .tapCount = 1, .sentence = "the one texel that holds the point"},
+      {.id = glsl::kShadowFilterBilinear,
+       .name = "bilinear",
+       .tapCount = 4,
+       .sentence = "the 2 x 2 texels around it, weighted by distance"},
+      {.id = glsl::kShadowFilterJitter4x4,
        .name = "jitter4x4",
-       .sentence = "16 jittered taps within 4 x 4 texels (Weiskopf & Ertl 2003)"},
+       .tapCount = 16,
+       .sentence = "16 jittered taps within 4 x 4 texels (Weiskopf & Ertl 2003)",
+       .knobs = {{.name = "width",
+                  .unit = Unit::Texels,
+                  .lower = 0.0f,
+                  .upper = 64.0f,
+                  .defaultValue = 4.0f,
+                  .defaultOfSceneScale = false,
+                  .sentence = "side of the square that the taps are spread over"}}},
   };
   return all;
 }
@@ -37,6 +48,13 @@ std::vector<const Filter*> parseFilters(const std::string& list) {
   }
   if (chosen.empty()) throw UsageError(fmt::format("--filters is empty; choose from {}", names));
   return chosen;
+}
+
+ChosenFilter::ChosenFilter(int wanted) : id(wanted) {
+  const auto found = std::ranges::find(filters(), wanted, &Filter::id);
+  if (found == filters().end()) return;
+  tapCount = found->tapCount;
+  for (size_t i = 0; i < found->knobs.size(); ++i) params.knobs[i] = found->knobs[i].defaultValue;
 }
 
 }  // namespace gnomon

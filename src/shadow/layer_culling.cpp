@@ -9,18 +9,15 @@ namespace {
 // Of the coordinates of clip space: a point is projected to within a few ulps. What is let through is clipped
 // anyway.
 constexpr float kSlack = 1e-3f;
-// A hemisphere is drawn up to a circle of radius 1 + 6.5 / side on its plane (drawnRim), where what lies
-// behind the light is less than this over the side of the distance.
-constexpr float kRimTexels = 7.0f;
 
 }  // namespace
 
 LayerCulling::LayerCulling(const FittedMap& fitted, int first, int count) : frame_(fitted.frame) {
   for (int layer = first; layer < first + count; ++layer) {
-    if (fitted.map.kind == glsl::kMapParaboloid)
-      hemispheres_.push_back({.axisZ = glsl::paraboloidAxisZ(layer),
-                              .backW = frame_.backW,
-                              .beyondRim = kRimTexels / static_cast<float>(fitted.map.side) + kSlack});
+    if (!fitted.halfSpaces.empty()) {
+      const FittedMap::HalfSpace& half = fitted.halfSpaces[static_cast<size_t>(layer)];
+      hemispheres_.push_back({.axisZ = half.axisZ, .backW = frame_.backW, .beyondRim = half.beyond + kSlack});
+    }
     if (!fitted.shaders.projective) continue;
     const glm::mat4 rows = glm::transpose(fitted.map.mapLayers[layer].clipFromLight);
     Projective made{.fromLight = {rows[0], rows[1], rows[3]}, .fromWorld = {}};

@@ -11,8 +11,8 @@ namespace gnomon {
 
 class LayerCulling {
  public:
-  // For layers first .. first + count - 1 together: projective ones, which have four sides, or hemispheres of
-  // a paraboloid. Others may show everything.
+  // For layers first .. first + count - 1 together: projective ones, which have four sides, or half spaces
+  // (FittedMap::halfSpaces). Others may show everything.
   LayerCulling(const FittedMap& fitted, int first, int count);
 
   bool mayShow(const Bounds& boundsW) const;

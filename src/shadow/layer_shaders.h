@@ -1,12 +1,10 @@
 #pragma once
-// How a parameterization's layers are drawn: a value that comes with its fit (FittedMap::shaders), and all
-// that MapRenderer knows of it.
+// How a parameterization's slices are drawn: a value that comes with its fit (FittedMap::shaders), and all that
+// MapRenderer knows of it.
 //
-// Every shader reads the scene's bindings, the map's uniforms at kBindMap and, as push constants, as much of
-// the front of LayerPush as it needs. Fragment shaders take `layout(constant_id = 0) const int kMasked`: 1
-// leaves the holes of alpha masks open; constant_id 1 is the pass: 0 the first layer, 1 the second by
-// blending, 2 by peeling;
-// constant_id 2 is the map's kind (kMap*), 3 is 1 where one pass draws all layers (shadow/drawn_layer.glsl).
+// Every shader reads the scene's bindings, the map's uniforms at kBindMap and, as push constants, as much of the front of
+// LayerPush as it needs (shadow/drawn_slice.glsl). Specialization constants: 0 is kMasked, 1 leaves the holes of alpha
+// masks open; 1 is kPass*; 2 is the map's kind (kMap*); 3 is 1 where one pass draws all slices.
 
 #include <cstdint>
 
@@ -21,12 +19,10 @@ enum class LayerPasses {
 
 struct LayerShaders {
   const char* vertex = "shadow/project_to_layer.vert.glsl";
-  // Fragment shaders. The first layer's may be empty for opaque meshes: the rasterizer's own depth. The
-  // second layer's write what they find to colour 0, too.
-  const char* depth = "";
-  const char* depthMasked = "shadow/draw_depth_masked.frag.glsl";
-  const char* secondDepth = "shadow/draw_second_depth.frag.glsl";
-  const char* peel = "shadow/peel_second_depth.frag.glsl";
+  // Ends in storeChannels (shadow/store_channels.glsl).
+  const char* fragment = "shadow/draw_depth.frag.glsl";
+  // Depth is the rasterizer's own: where there is nothing else to store, opaque meshes need no fragment shader.
+  bool rasterizedDepth = true;
   // Empty: indexed triangles, whose corners the vertex shader projects and which the rasterizer culls by
   // winding. Else a compute shader that writes the triangles a layer shows, each with four corners around its
   // projection (shared/bounded_triangle.glsl): these are drawn by shadow/pull_bounded_triangle.vert.glsl, and
@@ -45,10 +41,11 @@ struct LayerShaders {
 
 // Push constants of the vertex and fragment shaders, in this order.
 struct LayerPush {
-  int32_t layer = 0;
+  int32_t slice = 0;
   // Of depth: what lies no further behind the first layer is not the second. The same triangle gets the same
   // depth in every pass, so none is needed.
   float tolerance = 0.0f;
+  uint32_t rangeTriangle = 0;  // the first of the triangles that are drawn, in the array of all
 };
 
 }  // namespace gnomon

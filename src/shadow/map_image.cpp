@@ -1,5 +1,6 @@
 #include "shadow/map_image.h"
 
+#include "base/check.h"
 #include "base/error.h"
 #include "shadow/layer_culling.h"
 #include "shadow/visibility_pass.h"
@@ -13,7 +14,7 @@ namespace gnomon {
 
 namespace {
 
-gpu::ImageDesc layersDesc(const char* name, VkFormat format, VkImageUsageFlags usage, const glsl::ShadowMap& map) {
+gpu::ImageDesc slicesDesc(const char* name, VkFormat format, VkImageUsageFlags usage, const glsl::ShadowMap& map) {
   return {.name = name,
           .format = format,
           .width = static_cast<uint32_t>(map.side),
@@ -61,7 +62,7 @@ std::vector<gpu::Binding> bindingsOf(const gpu::GraphicsProgram& program, const 
         bindings.emplace_back(wanted.index, map.uniforms());
         break;
       case glsl::kBindMapDepth:
-        bindings.emplace_back(wanted.index, map.depth());
+        bindings.emplace_back(wanted.index, map.imageOrAny(glsl::kChannelDepth));
         break;
       case glsl::kBindBoundedTriangles:
         bindings.emplace_back(wanted.index, bounded.triangles());
@@ -75,13 +76,24 @@ std::vector<gpu::Binding> bindingsOf(const gpu::GraphicsProgram& program, const 
 
 }  // namespace
 
-MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, MapContent content)
-    : Occluders(device, fitted, "map uniforms"), content_(content) {
-  depth_ = gpu::Image(device, layersDesc("shadow map depth", VK_FORMAT_D32_SFLOAT,
-                                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, fitted.map));
-  if (content == MapContent::TwoLayers)
-    second_ = gpu::Image(device, layersDesc("shadow map second depth", VK_FORMAT_R32_SFLOAT,
-                                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, fitted.map));
+MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, ChannelSet wanted)
+    : Occluders(device, fitted, "map uniforms"), channels_(completed(wanted)) {
+  for (const Channel& channel : gnomon::channels()) {
+    if ((channels_ & channel.bit) == 0) continue;
+    const VkImageUsageFlags usage = channel.location == kDepthBuffer ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                                     : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    images_.emplace_back(channel.bit, gpu::Image(device, slicesDesc(channel.name, channel.format, usage, fitted.map)));
+  }
+}
+
+const gpu::Image& MapImage::image(ChannelSet channel) const {
+  GNOMON_CHECK((channels_ & channel) != 0);
+  return imageOrAny(channel);
+}
+
+const gpu::Image& MapImage::imageOrAny(ChannelSet channel) const {
+  const auto found = std::ranges::find(images_, channel, &decltype(images_)::value_type::first);
+  return found == images_.end() ? images_.front().second : found->second;
 }
 
 void MapImage::recordDrawing(gpu::Commands& commands, const MapRenderer& renderer, const SceneBuffers& scene,
@@ -95,37 +107,42 @@ void MapImage::recordVisibility(gpu::Commands& commands, const SceneBuffers& sce
 }
 
 std::vector<float> MapImage::downloadDepth(const gpu::Device& device) const {
-  return gpu::downloadAs<float>(device, depth_);
+  return gpu::downloadAs<float>(device, depth());
 }
 
 std::vector<float> MapImage::downloadSecondDepth(const gpu::Device& device) const {
-  if (content_ != MapContent::TwoLayers) return {};
-  return gpu::downloadAs<float>(device, second_);
+  if ((channels_ & glsl::kChannelSecondDepth) == 0) return {};
+  return gpu::downloadAs<float>(device, secondDepth());
 }
 
 MapRenderer::MapRenderer(const gpu::Device& device) : device_(device), computePrograms_(device), bounded_(device) {}
 
+MapRenderer::Key MapRenderer::keyOf(const Slice& slice, bool masked) const {
+  Key key{.shaders = slice.map.fitted().shaders,
+          .pass = slice.shaderPass,
+          .masked = masked,
+          .mapKind = slice.map.kind(),
+          .viewMask = slice.targets.viewMask};
+  for (const gpu::ColorTarget& color : slice.targets.colors)
+    key.colorFormats.push_back(color.image != nullptr ? color.image->desc().format : VK_FORMAT_UNDEFINED);
+  return key;
+}
+
 const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
   for (const auto& entry : programs_)
     if (entry->key == key) return entry->program;
-  const LayerShaders& shaders = key.shaders;
-  const bool second = key.pass != Pass::First;
-  const char* fragment = key.pass == Pass::Blend  ? shaders.secondDepth
-                         : key.pass == Pass::Peel ? shaders.peel
-                         : key.masked             ? shaders.depthMasked
-                                                  : shaders.depth;
-  gpu::GraphicsDesc desc{.name = second ? "draw second depth" : "draw depth",
-                         .vertex = {shaders.vertex, {}},
-                         .fragment = {fragment, {}},
+  gpu::GraphicsDesc desc{.name = key.pass == glsl::kPassNearest ? "draw depth" : "draw second depth",
+                         .vertex = {key.shaders.vertex, {}},
+                         .fragment = {key.needsFragments() ? key.shaders.fragment : "", {}},
                          .specializations = {{.id = 0, .value = key.masked ? 1 : 0},
-                                             {.id = 1, .value = static_cast<int32_t>(key.pass)},
+                                             {.id = 1, .value = key.pass},
                                              {.id = 2, .value = key.mapKind},
                                              {.id = 3, .value = key.viewMask != 0 ? 1 : 0}},
+                         .colorFormats = key.colorFormats,
                          .depthFormat = VK_FORMAT_D32_SFLOAT,
                          .depthCompare = VK_COMPARE_OP_LESS,
                          .viewMask = key.viewMask};
-  if (second) desc.colorFormats = {VK_FORMAT_R32_SFLOAT};
-  if (key.pass == Pass::Blend) {
+  if (key.pass == glsl::kPassBlend) {
     desc.depthCompare = VK_COMPARE_OP_GREATER;
     desc.depthWrite = false;
     desc.minBlend = true;
@@ -134,16 +151,16 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
   return programs_.back()->program;
 }
 
-void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
+void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Slice& slice,
                                 const Grouping& groupOf) const {
-  const LayerShaders& shaders = layer.map.fitted().shaders;
-  const bool backFaces = layer.map.content() == MapContent::BackFaces;
-  const bool mirrors = (shaders.mirroredLayers >> layer.index & 1u) != 0;
-  const LayerPush push{.layer = layer.index};
-  const LayerCulling culling(layer.map.fitted(), layer.index, layer.count);
+  const LayerShaders& shaders = slice.map.fitted().shaders;
+  const bool backFaces = slice.pass == ChannelPass::BackFaces;
+  const bool mirrors = (shaders.mirroredLayers >> slice.index & 1u) != 0;
+  LayerPush push{.slice = slice.index};
+  const LayerCulling culling(slice.map.fitted(), slice.index, slice.count);
   std::vector<std::vector<LayerCulling::Range>> shown;  // of each draw
   for (const Draw& d : scene.draws) shown.push_back(culling.rangesOf(scene, d));
-  commands.beginRendering(layer.targets);
+  commands.beginRendering(slice.targets);
   for (const bool masked : {false, true}) {
     for (const Group group : {Group::Sheets, Group::Solids, Group::MirroredSolids}) {
       const auto wanted = [&](size_t i) {
@@ -153,33 +170,37 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
       size_t next = 0;
       while (next < shown.size() && !wanted(next)) ++next;
       if (next == shown.size()) continue;
-      const gpu::GraphicsProgram& drawn =
-          program({shaders, layer.pass, masked, layer.map.kind(), layer.targets.viewMask});
-      commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
-                    bindingsOf(drawn, scene, layer.map, bounded_));
+      const Key key = keyOf(slice, masked);
+      const gpu::GraphicsProgram& drawn = program(key);
+      const auto pushed = [&] { return gpu::asPush(push).first(drawn.interface().pushConstantBytes); };
+      commands.bind(drawn, pushed(), bindingsOf(drawn, scene, slice.map, bounded_));
       const bool clockwise = (group == Group::MirroredSolids) != mirrors;
       commands.setCulling(group == Group::Sheets ? VK_CULL_MODE_NONE
                           : backFaces            ? VK_CULL_MODE_FRONT_BIT
                                                  : VK_CULL_MODE_BACK_BIT,
                           clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
       commands.bindIndexBuffer(scene.triangles);
-      for (; next < shown.size(); ++next)
-        if (wanted(next))
-          for (const LayerCulling::Range& range : shown[next])
-            commands.drawIndexed(range.indexCount, 1, range.firstIndex, 0, scene.draws[next].instance);
+      for (; next < shown.size(); ++next) {
+        if (!wanted(next)) continue;
+        for (const LayerCulling::Range& range : shown[next]) {
+          push.rangeTriangle = range.firstIndex / 3;
+          if (key.needsFragments()) commands.push(drawn, pushed());
+          commands.drawIndexed(range.indexCount, 1, range.firstIndex, 0, scene.draws[next].instance);
+        }
+      }
     }
   }
   commands.endRendering();
 }
 
-void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
+void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Slice& slice,
                                const Grouping& groupOf) const {
-  const LayerShaders& shaders = layer.map.fitted().shaders;
-  const bool backFaces = layer.map.content() == MapContent::BackFaces;
-  const LayerPush push{.layer = layer.index};
-  gpu::RenderTargets targets = layer.targets;
+  const LayerShaders& shaders = slice.map.fitted().shaders;
+  const bool backFaces = slice.pass == ChannelPass::BackFaces;
+  const LayerPush push{.slice = slice.index};
+  gpu::RenderTargets targets = slice.targets;
   bool cleared = false;
-  const LayerCulling culling(layer.map.fitted(), layer.index, layer.count);
+  const LayerCulling culling(slice.map.fitted(), slice.index, slice.count);
   for (const bool masked : {false, true}) {
     std::vector<BoundedDraws::Piece> pieces;
     for (const Draw& d : scene.draws) {
@@ -190,11 +211,11 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
         pieces.push_back({range.firstIndex / 3, range.indexCount / 3, d.instance, backFaces ? -front : front});
     }
     for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
-      bounded_.record(commands, scene, layer.map.uniforms(), shaders.bounds, layer.index, batch);
+      bounded_.record(commands, scene, slice.map.uniforms(), shaders.bounds, slice.index, batch);
       commands.beginRendering(targets);
-      const gpu::GraphicsProgram& drawn = program({shaders, layer.pass, masked, layer.map.kind(), 0});
+      const gpu::GraphicsProgram& drawn = program(keyOf(slice, masked));
       commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
-                    bindingsOf(drawn, scene, layer.map, bounded_));
+                    bindingsOf(drawn, scene, slice.map, bounded_));
       commands.drawIndirect(bounded_.arguments());
       commands.endRendering();
       cleared = true;
@@ -215,7 +236,7 @@ bool MapRenderer::takesMultiview(const MapImage& map) const {
   if (found == multiviewChecks_.end()) {
     const auto draw = [this](const SceneBuffers& scene, MapImage& tried, bool multiview) {
       gpu::Commands commands(device_, "multiview check");
-      recordLayers(commands, scene, tried, {}, CullMode::None, SecondLayer::Blend, multiview);
+      recordSlices(commands, scene, tried, {}, CullMode::None, SecondLayer::Blend, multiview);
       return commands.submitAndWait().wallMs;
     };
     found = multiviewChecks_.insert(found, {shaders, checkMultiview(device_, map.fitted(), draw)});
@@ -231,43 +252,68 @@ bool MapRenderer::takesMultiview(const MapImage& map) const {
 
 void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
                          CullMode cull, SecondLayer method) const {
-  recordLayers(commands, scene, map, light, cull, method, takesMultiview(map));
+  recordSlices(commands, scene, map, light, cull, method, takesMultiview(map));
 }
 
-void MapRenderer::recordLayers(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
-                               const LightModel& light, CullMode cull, SecondLayer method, bool multiview) const {
-  const bool backFaces = map.content() == MapContent::BackFaces;
-  const Grouping groupOf = [&](const Draw& draw) {
-    const bool culled = (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
-    return !culled ? Group::Sheets : draw.mirrored ? Group::MirroredSolids : Group::Solids;
-  };
-  const auto recordLayer = [&](const Layer& layer) {
-    if (*map.fitted().shaders.bounds == '\0')
-      recordCorners(commands, scene, layer, groupOf);
-    else
-      recordBounds(commands, scene, layer, groupOf);
-  };
-  const bool peels = method == SecondLayer::Peel && map.content() == MapContent::TwoLayers;
-  if (peels && map.peelDepth_.handle() == VK_NULL_HANDLE)
-    map.peelDepth_ = gpu::Image(device_, layersDesc("peel depth", VK_FORMAT_D32_SFLOAT,
+gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass, SecondLayer method) const {
+  gpu::RenderTargets targets;
+  for (const Channel& channel : channels()) {
+    if (channel.pass != pass || (map.channels() & channel.bit) == 0) continue;
+    if (channel.location == kDepthBuffer) {
+      targets.depth = &map.image(channel.bit);
+      targets.clearDepth = 1.0f;
+      continue;
+    }
+    if (std::ssize(targets.colors) <= channel.location) targets.colors.resize(channel.location + 1);
+    targets.colors[channel.location] = {.image = &map.image(channel.bit), .clear = channel.clear};
+  }
+  if (pass != ChannelPass::Second) return targets;
+  if (method == SecondLayer::Blend) {
+    targets.depth = &map.depth();  // tested against, and kept
+    return targets;
+  }
+  if (map.peelDepth_.handle() == VK_NULL_HANDLE)
+    map.peelDepth_ = gpu::Image(device_, slicesDesc("peel depth", VK_FORMAT_D32_SFLOAT,
                                                     VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, map.fitted().map));
+  targets.depth = &map.peelDepth_;
+  targets.clearDepth = 1.0f;
+  return targets;
+}
+
+void MapRenderer::recordSlices(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
+                               const LightModel& light, CullMode cull, SecondLayer method, bool multiview) const {
   const int count = multiview ? map.layerCount() : 1;
-  for (int layer = 0; layer < map.layerCount(); layer += count) {
-    gpu::RenderTargets first{.depth = &map.depth(), .clearDepth = 1.0f};
+  const auto recordPass = [&](int first, ChannelPass pass) {
+    const bool backFaces = pass == ChannelPass::BackFaces;
+    const Grouping groupOf = [&](const Draw& draw) {
+      const bool culled = (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
+      return !culled ? Group::Sheets : draw.mirrored ? Group::MirroredSolids : Group::Solids;
+    };
+    const int shaderPass = pass != ChannelPass::Second    ? glsl::kPassNearest
+                           : method == SecondLayer::Blend ? glsl::kPassBlend
+                                                          : glsl::kPassPeel;
+    Slice slice{map, first, count, pass, shaderPass, targetsOf(map, pass, method)};
     if (multiview)
-      first.viewMask = (1u << count) - 1u;
+      slice.targets.viewMask = (1u << count) - 1u;
     else
-      first.layer = static_cast<uint32_t>(layer);
-    recordLayer({map, layer, count, Pass::First, first});
-    if (map.content() != MapContent::TwoLayers) continue;
-    commands.barrier("the first layer's depth is written -> the second layer tests against it");
-    gpu::RenderTargets second{
-        .colors = {{.image = &map.second_, .clear = VkClearColorValue{.float32 = {1.0f, 0.0f, 0.0f, 0.0f}}}},
-        .depth = peels ? &map.peelDepth_ : &map.depth(),
-        .layer = first.layer,
-        .viewMask = first.viewMask};
-    if (peels) second.clearDepth = 1.0f;
-    recordLayer({map, layer, count, peels ? Pass::Peel : Pass::Blend, second});
+      slice.targets.layer = static_cast<uint32_t>(first);
+    if (*map.fitted().shaders.bounds == '\0')
+      recordCorners(commands, scene, slice, groupOf);
+    else
+      recordBounds(commands, scene, slice, groupOf);
+  };
+  const auto hasChannelOf = [&](ChannelPass pass) {
+    return std::ranges::any_of(channels(), [&](const Channel& channel) {
+      return channel.pass == pass && (map.channels() & channel.bit) != 0;
+    });
+  };
+  for (int first = 0; first < map.layerCount(); first += count) {
+    if (hasChannelOf(ChannelPass::Nearest)) recordPass(first, ChannelPass::Nearest);
+    if (hasChannelOf(ChannelPass::Second)) {
+      commands.barrier("the first layer's depth is written -> the second layer tests against it");
+      recordPass(first, ChannelPass::Second);
+    }
+    if (hasChannelOf(ChannelPass::BackFaces)) recordPass(first, ChannelPass::BackFaces);
   }
 }
 

@@ -1,9 +1,9 @@
 #pragma once
-// A shadow map on the GPU: an array of D32 layers, drawn once a layer by the shaders that the
-// parameterization gives, and for two-layer biases a second array with the nearest depth behind the first.
+// A shadow map on the GPU: for each of its channels (shadow/channel.h) an array of slices, drawn slice by slice by the
+// shaders that the parameterization gives, once for each pass that writes one of them.
 
-#include "shadow/bias.h"
 #include "shadow/bounded_draws.h"
+#include "shadow/channel.h"
 #include "shadow/multiview_check.h"
 #include "shadow/occluders.h"
 
@@ -13,11 +13,10 @@
 
 namespace gnomon {
 
-// How the second layer is found. Both give the same bits where the peel's tolerance is 0.
+// How the second depth layer is found. Both give the same bits where the peel's tolerance is 0.
 enum class SecondLayer {
-  // Depth test "greater than the first layer" against its own depth buffer, MIN blending into a float target:
-  // no texture is
-  // read, and every fragment before the first layer dies in the early depth test.
+  // Depth test "greater than the first layer" against its own depth buffer, MIN blending into a float target: no texture
+  // is read, and every fragment before the first layer dies in the early depth test.
   Blend,
   // Depth peeling as in the paper: a fragment shader throws away what equals the first layer.
   Peel,
@@ -25,27 +24,30 @@ enum class SecondLayer {
 
 class MapImage final : public Occluders {
  public:
-  // Throws WorldError where the device cannot hold the map.
-  MapImage(const gpu::Device& device, const FittedMap& fitted, MapContent content = MapContent::OneLayer);
+  // A map of these channels and what they need. Throws WorldError where the device cannot hold it.
+  MapImage(const gpu::Device& device, const FittedMap& fitted, ChannelSet channels = glsl::kChannelDepth);
 
   void recordDrawing(gpu::Commands& commands, const MapRenderer& renderer, const SceneBuffers& scene,
                      const LightModel& light, CullMode cull) override;
   void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                         VisibilityPass& pass, const ShadowLookup& lookup) const override;
-  const gpu::Image& depth() const override { return depth_; }  // layerCount layers
-  const gpu::Image& secondDepth() const { return second_; }    // R32F; only of TwoLayers
+  const gpu::Image& depth() const override { return image(glsl::kChannelDepth); }
+  const gpu::Image& secondDepth() const { return image(glsl::kChannelSecondDepth); }
   std::vector<float> downloadDepth(const gpu::Device& device) const override;
   std::vector<float> downloadSecondDepth(const gpu::Device& device) const override;
 
-  MapContent content() const { return content_; }
+  ChannelSet channels() const { return channels_; }
+  // Of one channel, which the map must have; layerCount slices.
+  const gpu::Image& image(ChannelSet channel) const;
+  // The same, or where the map lacks it another: for shaders that declare more than they read.
+  const gpu::Image& imageOrAny(ChannelSet channel) const;
   int layerCount() const { return fitted().map.layerCount; }
 
  private:
   friend class MapRenderer;
-  gpu::Image depth_;
-  gpu::Image second_;
+  ChannelSet channels_;
+  std::vector<std::pair<ChannelSet, gpu::Image>> images_;
   gpu::Image peelDepth_;  // made at the first peel
-  MapContent content_ = MapContent::OneLayer;
 };
 
 class MapRenderer {
@@ -63,13 +65,17 @@ class MapRenderer {
   const gpu::ComputePrograms& programs() const { return computePrograms_; }
 
  private:
-  enum class Pass { First, Blend, Peel };  // kPass
   struct Key {
     LayerShaders shaders;
-    Pass pass;
+    int pass;  // glsl::kPass*
     bool masked;
     int mapKind;
     uint32_t viewMask;
+    std::vector<VkFormat> colorFormats;
+    // Or else the rasterizer's own depth is all that is stored.
+    bool needsFragments() const {
+      return masked || !shaders.rasterizedDepth || pass != glsl::kPassNearest || !colorFormats.empty();
+    }
     bool operator==(const Key&) const = default;
   };
   struct Entry {
@@ -78,22 +84,25 @@ class MapRenderer {
   };
   const gpu::GraphicsProgram& program(const Key& key) const;
   // What one pass draws.
-  struct Layer {
+  struct Slice {
     const MapImage& map;
     int index;
     int count;  // 1, or all at once
-    Pass pass;
+    ChannelPass pass;
+    int shaderPass;  // glsl::kPass*
     gpu::RenderTargets targets;
   };
+  Key keyOf(const Slice& slice, bool masked) const;
   // How a draw's triangles are culled: sheets not at all, solids by the side they show the light.
   enum class Group { Sheets, Solids, MirroredSolids };
   using Grouping = std::function<Group(const Draw&)>;
-  void recordLayers(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
+  void recordSlices(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
                     CullMode cull, SecondLayer method, bool multiview) const;
+  gpu::RenderTargets targetsOf(MapImage& map, ChannelPass pass, SecondLayer method) const;
   bool takesMultiview(const MapImage& map) const;
-  void recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
+  void recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Slice& slice,
                      const Grouping& groupOf) const;
-  void recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Layer& layer,
+  void recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Slice& slice,
                     const Grouping& groupOf) const;
 
   const gpu::Device& device_;

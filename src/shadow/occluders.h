@@ -28,7 +28,7 @@ const char* cullModeName(CullMode mode);
 // How a picture's pixels are looked up. The bias's parameters are in the pass's uniforms.
 struct ShadowLookup {
   const BiasMethod& bias;
-  int filter = glsl::kFilterNone;
+  ChosenFilter filter = glsl::kShadowFilterNone;
   bool diagnose = false;  // also which texel decided each pixel, and how; without a filter only
 };
 

@@ -5,8 +5,8 @@
 namespace gnomon {
 
 std::unique_ptr<Occluders> Parameterization::createOccluders(const gpu::Device& device, const FittedMap& fitted,
-                                                             MapContent content) const {
-  return std::make_unique<MapImage>(device, fitted, content);
+                                                             ChannelSet channels) const {
+  return std::make_unique<MapImage>(device, fitted, channels);
 }
 
 }  // namespace gnomon

@@ -34,6 +34,15 @@ struct FittedMap {
   LayerShaders shaders;
   // What a report should say of the fit: why a warp was weakened or not applied. Empty: nothing.
   std::string note = {};
+  // Layers that show only what lies to one side of a point light, and how far behind it (over the distance) all the
+  // same; one a layer, or empty.
+  struct HalfSpace {
+    float axisZ = 1.0f;  // of L: +1 or -1
+    float beyond = 0.0f;
+  };
+  std::vector<HalfSpace> halfSpaces = {};
+  // Where each layer's square stands in an unfolded picture, in squares; empty: side by side.
+  std::vector<glm::ivec2> unfoldedAt = {};
   // Of a shadow volume's columns: the map in which their occluders are looked up; none: their own layer is drawn.
   std::shared_ptr<const FittedMap> occluderSource;
 };
@@ -77,7 +86,25 @@ class Parameterization {
   // Room on the device for what fit() gave, not drawn yet (occluders.h): a map image, unless it is overridden. Throws
   // WorldError where the device cannot hold it.
   virtual std::unique_ptr<Occluders> createOccluders(const gpu::Device& device, const FittedMap& fitted,
-                                                     MapContent content) const;
+                                                     ChannelSet channels) const;
+
+  // Its options, which flags, --help, results.json and commands derive from. An option that two maps share is one
+  // constant, which both name.
+  virtual std::vector<const MapOption*> options() const { return {}; }
+  // Throws UsageError where choices do not go together.
+  virtual void checkOptions(const MapOptions&) const {}
+  // What the params of its rows say of a fit, beside the options: names and texts.
+  virtual std::vector<std::pair<std::string, std::string>> fitParams(const FittedMap&) const { return {}; }
+  // Those of half the resolution, where options say what that is beside FitInput::side.
+  virtual MapOptions halved(const MapOptions& given) const { return given; }
+  // Other ways to draw it that a bench should time.
+  struct Variant {
+    std::string name;
+    MapOptions options;
+  };
+  virtual std::vector<Variant> variants(const MapOptions& /*given*/) const { return {}; }
+  // Whether it holds every direction around a light, so that a view ray can be marched through a medium with it.
+  virtual bool looksAround() const { return false; }
 };
 
 }  // namespace gnomon

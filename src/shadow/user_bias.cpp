@@ -4,6 +4,8 @@
 #include "base/file.h"
 
 #include <algorithm>
+#include <cctype>
+#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -28,35 +30,51 @@ Unit parseUnit(const UserBias& bias, int line, const std::string& word) {
   throw lineError(bias, line, fmt::format("'{}' is no unit", word), "write metres, texels or one");
 }
 
+bool isKnobName(const std::string& name) {
+  return std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
+         std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; });
+}
+
 void readKnob(UserBias& bias, int line, const std::string& text) {
+  std::vector<Knob>& knobs = bias.method.knobs;
   std::istringstream words(text);
-  std::string unit, rest;
-  BiasKnob knob{};
-  words >> bias.knobName >> unit >> knob.lower >> knob.upper >> knob.defaultValue;
+  std::string name, unit, rest;
+  Knob knob{};
+  words >> name >> unit >> knob.lower >> knob.upper >> knob.defaultValue;
   if (!words || !(knob.lower <= knob.upper))
     throw lineError(bias, line, "the knob is not understood", "write //! knob: NAME UNIT LOWER UPPER DEFAULT [scene]");
   if (words >> rest && rest != "scene")
     throw lineError(bias, line, fmt::format("'{}' after the knob's default", rest), "write scene, or nothing");
+  if (!isKnobName(name))
+    throw lineError(bias, line, fmt::format("'{}' cannot name a knob", name),
+                    "begin with a letter, and take letters, digits, - and _ only");
+  for (const Knob& other : knobs)
+    if (knobConstant(other.name) == knobConstant(name))
+      throw lineError(bias, line, fmt::format("two knobs are named '{}'", name), "rename one of them");
+  if (std::ssize(knobs) == glsl::kMostKnobs)
+    throw lineError(bias, line, fmt::format("'{}' is one knob too many", name),
+                    fmt::format("a bias has at most {}", glsl::kMostKnobs));
   knob.unit = parseUnit(bias, line, unit);
   knob.defaultOfSceneScale = rest == "scene";
-  knob.name = bias.knobName.c_str();
-  bias.knobSentence = fmt::format("the knob of {}", bias.path);
+  knob.name = (bias.knobNames[knobs.size()] = name).c_str();
   knob.sentence = bias.knobSentence.c_str();
-  knob.field = &glsl::BiasParams::userKnob;
   knob.searchUpper = knob.upper;
   knob.searchLower = std::max(knob.lower, 1e-7f * knob.upper);
-  bias.method.knobs = {knob};
+  knobs.push_back(knob);
 }
 
-void readLayers(UserBias& bias, int line, const std::string& text) {
-  if (text == "1")
-    bias.method.content = MapContent::OneLayer;
-  else if (text == "2")
-    bias.method.content = MapContent::TwoLayers;
-  else if (text == "back")
-    bias.method.content = MapContent::BackFaces;
-  else
-    throw lineError(bias, line, fmt::format("'{}' layers", text), "write 1, 2 or back");
+void readChannels(UserBias& bias, int line, const std::string& text) {
+  const std::optional<ChannelSet> set = parseChannels(text);
+  if (!set)
+    throw lineError(bias, line, fmt::format("'{}' is no list of channels", text),
+                    fmt::format("choose from {}", channelNames()));
+  bias.method.channels = *set;
+}
+
+std::string knobsGlsl(const std::vector<Knob>& knobs) {
+  std::string text = "GNOMON_SHARED_BEGIN\n";
+  for (size_t i = 0; i < knobs.size(); ++i) text += fmt::format("const int {} = {};\n", knobConstant(knobs[i].name), i);
+  return text + "GNOMON_SHARED_END\n";
 }
 
 void readHeader(UserBias& bias) {
@@ -74,17 +92,32 @@ void readHeader(UserBias& bias) {
       bias.name = value;
     else if (key == "sentence" && !value.empty())
       bias.sentence = value;
+    else if (key == "channels")
+      readChannels(bias, number, value);
     else if (key == "layers")
-      readLayers(bias, number, value);
+      throw lineError(
+          bias, number, "a bias asks for channels, no longer for layers",
+          "for 1 write nothing, for 2 //! channels: depth, second-depth, for back //! channels: back-depth, "
+          "and read tap.zBack");
     else if (key == "knob")
       readKnob(bias, number, value);
     else
       throw lineError(bias, number, fmt::format("'{}' is not understood", line),
-                      "write //! name:, sentence:, layers: or knob:");
+                      "write //! name:, sentence:, channels: or knob:");
   }
 }
 
 }  // namespace
+
+std::string knobConstant(const std::string& knob) {
+  std::string constant = "kUser";
+  bool begins = true;
+  for (const char c : knob) {
+    if (c != '-' && c != '_') constant += begins ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    begins = c == '-' || c == '_';
+  }
+  return constant;
+}
 
 std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path) {
   return readUserBias(path, readFile(path));
@@ -96,7 +129,9 @@ std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, 
   bias->source = source;
   bias->name = path.stem().string();
   bias->sentence = "A bias of your own: " + bias->path;
+  bias->knobSentence = fmt::format("a knob of {}", bias->path);
   readHeader(*bias);
+  bias->knobsGlsl = knobsGlsl(bias->method.knobs);
   for (const BiasMethod& method : biasMethods())
     if (bias->name == method.name)
       throw fileError(bias->path, fmt::format("'{}' is the name of a built-in bias", bias->name),

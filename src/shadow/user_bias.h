@@ -7,16 +7,15 @@
 //
 //   //! name: my-bias                          default: the file's name
 //   //! sentence: What it does.
-//   //! layers: 2                              1 (default), 2 (tap.z2 holds the second), back (back faces of
-//   solids)
-//   //! knob: offset metres 0 10 0.001 scene   name, unit (metres, texels, one), lower and upper bound,
-//   default,
-//                                              which with "scene" is a share of the scene's diagonal
+//   //! channels: depth, second-depth          what it reads of a texel (src/shadow/channel.cpp); default: depth
+//   //! knob: offset metres 0 10 0.001 scene   name, unit (metres, texels, one), lower and upper bound, default, which
+//                                              with "scene" is a share of the scene's diagonal; at most 4 such lines
 //
-// The knob's value is params.userKnob.
+// The value of knob `max-offset` is params.knobs[kUserMaxOffset].
 
 #include "shadow/bias.h"
 
+#include <array>
 #include <filesystem>
 #include <memory>
 
@@ -24,14 +23,19 @@ namespace gnomon {
 
 struct UserBias {
   std::string path;  // as the user wrote it
-  std::string name, sentence, knobName, knobSentence;
-  std::string source;  // GLSL
-  BiasMethod method;   // its strings are those above
+  std::string name, sentence, knobSentence;
+  std::array<std::string, glsl::kMostKnobs> knobNames;
+  std::string source;     // GLSL
+  std::string knobsGlsl;  // in place of shaders/shared/bias/user_knobs.glsl
+  BiasMethod method;      // its strings are those above
 };
 
 // Throws WorldError: no such file, or a "//!" line that is not understood ("file:line: ...").
 std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path);
 // The same of a text; `path` is what complaints name.
 std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source);
+
+// "max-offset" -> "kUserMaxOffset".
+std::string knobConstant(const std::string& knob);
 
 }  // namespace gnomon

@@ -25,7 +25,9 @@ gpu::ComputeProgram createProgram(const gpu::Device& device, const UserBias* use
   if (user == nullptr) return {device, {kShader, {}}, constants};
   constexpr std::string_view kUserPath = "shared/bias/user.glsl";
   try {
-    return {device, {kShader, {{std::string(kUserPath), user->source}}}, constants};
+    return {device,
+            {kShader, {{std::string(kUserPath), user->source}, {"shared/bias/user_knobs.glsl", user->knobsGlsl}}},
+            constants};
   } catch (const WorldError& error) {  // the compiler knows the file by the name it takes the place of
     std::string message = error.what();
     for (size_t at = 0; (at = message.find(kUserPath, at)) != std::string::npos; at += user->path.size())
@@ -74,28 +76,28 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
                                                                             {.id = 2, .value = key.mapKind},
                                                                             {.id = 3, .value = key.layerCount},
                                                                             {.id = 4, .value = key.instanced},
-                                                                            {.id = 5, .value = key.secondLayer},
-                                                                            {.id = 6, .value = key.filter}})}));
+                                                                            {.id = 5, .value = key.channels},
+                                                                            {.id = 6, .value = key.filter},
+                                                                            {.id = 7, .value = key.tapCount}})}));
   return variants_.back()->program;
 }
 
 void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                            const MapImage& map, const BiasMethod& method, bool diagnose, int filter) {
-  GNOMON_CHECK(!diagnose || filter == glsl::kFilterNone);
-  const bool twoLayers = map.content() == MapContent::TwoLayers;
+                            const MapImage& map, const BiasMethod& method, bool diagnose, const ChosenFilter& filter) {
+  GNOMON_CHECK(!diagnose || filter.id == glsl::kShadowFilterNone);
+  GNOMON_CHECK_EQ(method.channels & ~map.channels(), 0);
+  std::vector<gpu::Binding> bindings = {{glsl::kBindPositions, scene.positions},
+                                        {glsl::kBindTriangles, scene.triangles},
+                                        {glsl::kBindInstances, scene.instances},
+                                        {glsl::kBindMap, map.uniforms()},
+                                        {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+                                        {glsl::kBindShade, uniforms_},
+                                        {glsl::kBindVisibility, visibility_},
+                                        {glsl::kBindDiagnosis, diagnosis_}};
+  for (const Channel& channel : channels()) bindings.emplace_back(channel.binding, map.imageOrAny(channel.bit));
   commands.dispatch(program({method.id, diagnose ? 1 : 0, map.kind(), map.layerCount(), scene.instanced ? 1 : 0,
-                             twoLayers ? 1 : 0, filter, method.user}),
-                    groupCount_, {},
-                    {{glsl::kBindPositions, scene.positions},
-                     {glsl::kBindTriangles, scene.triangles},
-                     {glsl::kBindInstances, scene.instances},
-                     {glsl::kBindMap, map.uniforms()},
-                     {glsl::kBindMapDepth, map.depth()},
-                     {glsl::kBindSecondDepth, twoLayers ? map.secondDepth() : map.depth()},
-                     {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
-                     {glsl::kBindShade, uniforms_},
-                     {glsl::kBindVisibility, visibility_},
-                     {glsl::kBindDiagnosis, diagnosis_}});
+                             method.channels, filter.id, filter.tapCount, method.user}),
+                    groupCount_, gpu::asPush(filter.params), bindings);
 }
 
 RadiancePass::RadiancePass(const gpu::Device& device, int width, int height)

@@ -22,7 +22,7 @@ class VisibilityPass {
   // Compiles its pipeline on first use; throws WorldError that names a user's file and line where that does
   // not compile. A diagnosis is of the unfiltered map: with a filter there is none.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const MapImage& map,
-              const BiasMethod& method, bool diagnose, int filter = glsl::kFilterNone);
+              const BiasMethod& method, bool diagnose, const ChosenFilter& filter = glsl::kShadowFilterNone);
 
   void setUniforms(const glsl::ShadeUniforms& uniforms);
 
@@ -37,7 +37,7 @@ class VisibilityPass {
  private:
   // Specialization constants of shade_visibility.comp.glsl, in the order of their ids.
   struct VariantKey {
-    int32_t method, diagnose, mapKind, layerCount, instanced, secondLayer, filter;
+    int32_t method, diagnose, mapKind, layerCount, instanced, channels, filter, tapCount;
     const UserBias* user;
     bool operator==(const VariantKey&) const = default;
   };

@@ -1,11 +1,15 @@
 // The program: exit codes, one clear line for every mistake, and files that are whole or absent.
 #include "base/file.h"
+#include "lab/core/maps.h"
 #include "tests/base/temporary_folder.h"
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <set>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -78,6 +82,67 @@ TEST_F(CliTest, CompareLeavesAPageAndReportMakesTheSameOneAgain) {
   const std::string page = readFile(folder_ / "page.html");
   EXPECT_TRUE(page.starts_with("<!doctype html>"));
   EXPECT_EQ(page, readFile(folder_ / "out" / "report.html"));
+}
+
+// Of the commands that a page shows for its rows, as a person would copy them.
+std::vector<std::string> rowCommandsOf(std::string page) {
+  const std::string before = "<h3>Make it again</h3>\n<div class=\"command\"><code>";
+  std::vector<std::string> commands;
+  for (size_t at = page.find(before); at != std::string::npos; at = page.find(before, at)) {
+    at += before.size();
+    std::string command = page.substr(at, page.find("</code>", at) - at);
+    for (const auto& [escaped, character] :
+         {std::pair{"&apos;", "'"}, {"&quot;", "\""}, {"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}})
+      for (size_t found = command.find(escaped); found != std::string::npos; found = command.find(escaped))
+        command.replace(found, std::string(escaped).size(), character);
+    commands.push_back(command);
+  }
+  return commands;
+}
+
+// What does not depend on the clock, nor on where pictures went.
+nlohmann::json withoutTimes(nlohmann::json row) {
+  for (const char* key : {"build_ms", "shade_ms", "frame_ms", "pictures"}) row.erase(key);
+  return row;
+}
+
+TEST_F(CliTest, ThePagesCommandsMakeItsRowsAgainWhateverTheOptions) {
+  writeTextFile(
+      folder_ / "my biases" / "mine.glsl",
+      "GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) { return true; }\n");
+  const std::string setup =
+      "compare contact --light 1,4,2 --camera eye:3,3,4,target:0,0.5,0,fov:50 --direction -1,-4,-2 --cone 75.5 "
+      "--size 48x40 --map-size 64 --cull none --epsilon-at stored --repeats 1 -o @/out ";
+  const std::string flags[] = {
+      "--maps directional,cube,paraboloid,vsv --biases constant,adaptive --constant-offset 0.03 --filters "
+      "none,bilinear --fit tight --snap off --cascades 2 --cube-depth radial --cube-passes six --paraboloid-axis "
+      "0.3,-1,0.2 --paraboloid-raster tessellated --vsv-size 64x64x128 --vsv-source resample --vsv-fit full",
+      "--maps spot,directional --warp lispsm --biases none,adaptive-ehm --adaptive-k 0.0003 --bias-file '@/my "
+      "biases/mine.glsl'"};
+  for (const MapOption* option : allMapOptions())
+    EXPECT_NE((flags[0] + flags[1]).find(option->flag() + " "), std::string::npos)
+        << option->flag() << " is at its default in this test";
+  for (const std::string& chosen : flags) {
+    const Result compared = run(setup + chosen);
+    ASSERT_EQ(compared.exitCode, 0) << compared.err;
+    const auto rows = nlohmann::json::parse(readFile(folder_ / "out" / "results.json")).at("rows");
+    const std::vector<std::string> commands = rowCommandsOf(readFile(folder_ / "out" / "report.html"));
+    ASSERT_EQ(commands.size(), rows.size());
+    size_t same = 0;
+    for (const std::string& command : commands) {
+      const Result again = run(command.substr(std::string("gnomon ").size()) + " --repeats 1 --json @/row.json");
+      ASSERT_EQ(again.exitCode, 0) << command << "\n" << again.err;
+      const auto made = nlohmann::json::parse(readFile(folder_ / "row.json")).at("rows");
+      for (const auto& row : rows) {
+        if (row.at("command") != command) continue;
+        ++same;
+        EXPECT_EQ(std::ranges::count_if(made, [&](const auto& m) { return withoutTimes(m) == withoutTimes(row); }), 1)
+            << row.dump(2) << "\n"
+            << made.dump(2);
+      }
+    }
+    EXPECT_EQ(same, rows.size());
+  }
 }
 
 TEST_F(CliTest, AReportOfNothingOrOfGarbageIsRefusedInOneLine) {
@@ -159,6 +224,47 @@ TEST_F(CliTest, EveryBiasKnobIsAFlag) {
   EXPECT_EQ(rows[1].at("params").at("cull"), "none");
 }
 
+TEST_F(CliTest, AFiltersKnobIsAFlag) {
+  const Result result = run(
+      "compare corner --biases none --filters none,jitter4x4 --jitter4x4-width 6 --size 32 --map-size 32 --repeats 1 "
+      "--json @/r.json");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto rows = nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows");
+  EXPECT_FALSE(rows[0].at("params").contains("filter_width"));
+  EXPECT_EQ(rows[1].at("params").at("filter_width"), 6);
+}
+
+TEST_F(CliTest, AFilesKnobsAreSetByName) {
+  const char* lit = "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) { return true; }\n";
+  writeTextFile(folder_ / "one.glsl", std::string("//! knob: reach texels 0 8 1\n") + lit);
+  writeTextFile(folder_ / "two.glsl",
+                std::string("//! knob: reach texels 0 8 1\n//! knob: offset metres 0 9 1\n") + lit);
+  writeTextFile(folder_ / "none.glsl", lit);
+  const std::string small = " --biases none --size 32 --map-size 32 --repeats 1 --json @/r.json";
+  ASSERT_EQ(run("compare corner --bias-file @/one.glsl --bias-file @/two.glsl --bias-file @/none.glsl --bias-file-knob "
+                "reach=2 --bias-file-knob offset=3" +
+                small)
+                .exitCode,
+            0);
+  auto rows = nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows");
+  EXPECT_EQ(rows[1].at("params").at("reach"), 2);
+  EXPECT_EQ(rows[2].at("params").at("reach"), 2);
+  EXPECT_EQ(rows[2].at("params").at("offset"), 3);
+  ASSERT_EQ(run("compare corner --bias-file @/one.glsl --bias-file-knob 4" + small).exitCode, 0);
+  rows = nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows");
+  EXPECT_EQ(rows[1].at("params").at("reach"), 4);
+
+  expectMistake("compare corner --bias-file-knob 4", 2, "--bias-file-knob needs a --bias-file");
+  expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob 4", 2,
+                "two.glsl has 2 knobs; write NAME=VALUE, NAME one of reach, offset");
+  expectMistake("compare corner --bias-file @/none.glsl --bias-file-knob 4", 2, "none.glsl has no knob");
+  expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob rich=4", 2,
+                "--bias-file-knob rich=4: no such knob; choose from reach, offset");
+  expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=much", 2, "'much' is no number");
+  expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=9", 2,
+                "--bias-file-knob reach 9 is outside 0..8 texels");
+}
+
 TEST_F(CliTest, AShadowVolumeLeavesOutWhatMeansNothingOnItAndSaysSo) {
   const Result result =
       run("compare contact --maps vsv --biases none,slope,adaptive --vsv-size 64x64x128 --size 32 --repeats 1");
@@ -177,7 +283,7 @@ TEST_F(CliTest, MapTexelsPicksTheSide) {
 }
 
 TEST_F(CliTest, AThresholdThatIsCrossedExitsWith3) {
-  const std::string base = "compare slope --biases none,adaptive --size 64 --map-size 64 --repeats 1 ";
+  const std::string base = "compare tilted-planes --biases none,adaptive --size 64 --map-size 64 --repeats 1 ";
   const Result crossed = run(base + "--fail-if 'none:acne>1%'");
   EXPECT_EQ(crossed.exitCode, 3);
   EXPECT_NE(crossed.err.find("spot none: acne is"), std::string::npos) << crossed.err;
@@ -207,6 +313,12 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("compare contact --fit wide", 2, "--fit wide: no such choice");
   expectMistake("compare contact --snap yes", 2, "--snap yes: no such choice");
   expectMistake("compare contact --warp fish", 2, "--warp fish: no such choice");
+  expectMistake("compare contact --cascades two", 2, "--cascades two: write a whole number of 1..4");
+  expectMistake("compare contact --cube-depth cubic", 2, "--cube-depth cubic: no such choice; choose from hyperbolic");
+  expectMistake("compare contact --cube-passes 6", 2, "--cube-passes 6: no such choice");
+  expectMistake("compare contact --paraboloid-raster no", 2, "--paraboloid-raster no: no such choice");
+  expectMistake("compare contact --paraboloid-axis 1,2", 2, "--paraboloid-axis 1,2: write three numbers, x,y,z");
+  expectMistake("compare contact --paraboloid-axis 0,0,0", 2, "--paraboloid-axis 0,0,0 has no direction");
   expectMistake("compare contact --cascades 5", 2, "--cascades 5: is outside 1..4");
   expectMistake("compare contact --cascades 2 --warp tsm", 2, "--cascades 2 with --warp tsm");
   expectMistake("compare contact --repeats 0", 2, "--repeats");
@@ -227,8 +339,8 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("fog grate --frames 3", 2, "--frames and --move need each other");
   expectMistake("fog grate --frames 3 --move sun:1,0,0", 2, "--move sun:1,0,0");
   expectMistake("fog grate --frames 3 --move light:1,0,0", 2, "give a folder with -o");
-  expectMistake("scene slope", 2, "-o FILE.glb");
-  expectMistake("scene slope -o @/a.obj", 2, "write a .glb");
+  expectMistake("scene tilted-planes", 2, "-o FILE.glb");
+  expectMistake("scene tilted-planes -o @/a.obj", 2, "write a .glb");
   EXPECT_EQ(fileCount(), 0u);
 }
 
@@ -252,17 +364,34 @@ TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
   EXPECT_EQ(fileCount(), 0u);
 }
 
+// The choices of a flag, which --help lists as {a,b,c} behind it.
+std::vector<std::string> choicesOf(const std::string& help, const std::string& flag) {
+  const size_t line = help.find("  " + flag + " ");
+  const size_t begin = help.find('{', line), end = help.find('}', line);
+  std::vector<std::string> choices;
+  if (line == std::string::npos || end == std::string::npos ||
+      help.substr(line, begin - line).find('\n') != std::string::npos)
+    return choices;
+  std::istringstream words(help.substr(begin + 1, end - begin - 1));
+  for (std::string word; std::getline(words, word, ',');) choices.push_back(word);
+  return choices;
+}
+
+// Every choice of --show that the program itself lists; and each is a picture of its own.
 TEST_F(CliTest, RenderDrawsEveryKindOfPicture) {
-  for (const char* show : {"beauty", "visibility", "truth", "labels", "depth", "density"}) {
-    const std::string name = std::string("@/") + show;
-    EXPECT_EQ(
-        run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".png").exitCode, 0)
-        << show;
-    EXPECT_EQ(
-        run("render contact --size 48 --map-size 32 --show " + std::string(show) + " -o " + name + ".exr").exitCode, 0)
-        << show;
+  const std::vector<std::string> shows = choicesOf(run("render --help").out, "--show");
+  ASSERT_GE(shows.size(), 9u);  // else --help was not understood
+  std::set<std::string> pngs, exrs;
+  for (const std::string& show : shows) {
+    for (const char* extension : {".png", ".exr"}) {
+      const Result result =
+          run("render contact --size 48 --map-size 32 --show " + show + " -o @/" + show + std::string(extension));
+      EXPECT_EQ(result.exitCode, 0) << show << extension << ": " << result.err;
+    }
+    EXPECT_TRUE(pngs.insert(readFile(folder_ / (show + ".png"))).second) << show << " is drawn as another";
+    EXPECT_TRUE(exrs.insert(readFile(folder_ / (show + ".exr"))).second) << show << " is drawn as another";
   }
-  EXPECT_EQ(fileCount(), 12u);
+  EXPECT_EQ(fileCount(), 2 * shows.size());
 }
 
 // A generated scene, written and loaded again, is the same scene: the same counts for every bias.
@@ -321,7 +450,7 @@ TEST_F(CliTest, SceneListsAndInfoTells) {
   EXPECT_EQ(puff.exitCode, 0) << puff.err;
   EXPECT_NE(puff.out.find("voxels of"), std::string::npos);
   for (const char* name :
-       {"lshape", "double-torus", "factory", "atrium", "corner", "sheets", "contact", "slope", "crowd"})
+       {"lshape", "double-torus", "factory", "atrium", "corner", "sheets", "contact", "tilted-planes", "crowd"})
     EXPECT_NE(scenes.out.find(name), std::string::npos) << name;
   const Result info = run("info lshape");
   EXPECT_NE(info.out.find("solid"), std::string::npos);
@@ -331,6 +460,8 @@ TEST_F(CliTest, SceneListsAndInfoTells) {
   const Result help = run("compare --help");
   EXPECT_EQ(help.exitCode, 0);
   EXPECT_NE(help.out.find("--adaptive-k"), std::string::npos);
+  for (const MapOption* option : allMapOptions())
+    EXPECT_NE(help.out.find(option->flag() + " TEXT=" + option->defaultText()), std::string::npos) << option->flag();
 }
 
 }  // namespace

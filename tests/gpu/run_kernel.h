@@ -17,13 +17,14 @@ constexpr size_t kKernelInputCount = size_t{1} << 16;
 // `more`: buffers that the shader's includes declare, such as a map.
 template <typename In, typename Out>
 std::vector<Out> runKernel(const Device& device, const ShaderSource& shader, const std::vector<In>& inputs,
-                           const std::vector<Binding>& more = {}) {
+                           const std::vector<Binding>& more = {},
+                           const std::vector<Specialization>& specializations = {}) {
   static_assert(std::is_trivially_copyable_v<In> && std::is_trivially_copyable_v<Out>);
   constexpr uint32_t kGroupSize = 64;  // as in kernel.glsl
   const auto count = static_cast<uint32_t>(inputs.size());
   const uint32_t groupCount = (count + kGroupSize - 1) / kGroupSize;
   GNOMON_CHECK_LE(groupCount, 65535u);  // what every device can dispatch
-  const ComputeProgram program(device, shader);
+  const ComputeProgram program(device, shader, specializations);
   const Buffer inBuffer = createBufferWith(device, "kernel inputs", inputs);
   const Buffer outBuffer(device, {.name = "kernel outputs", .size = count * sizeof(Out)});
   Commands commands(device, "kernel");

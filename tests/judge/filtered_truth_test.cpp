@@ -19,7 +19,7 @@ TEST_F(FilteredTruthTest, WithoutAFilterItIsTheTruth) {
   const LitMap contact(device(), "contact", spotParameterization(), 128, {.side = 64});
   const Receivers& receivers = contact.lit.receivers();
   const Truth& truth = contact.lit.truth();
-  const std::vector<float> visibility = contact.lit.filteredTruth(glsl::kFilterNone);
+  const std::vector<float> visibility = contact.lit.filteredTruth(glsl::kShadowFilterNone);
   for (size_t i = 0; i < visibility.size(); ++i) {
     if (receivers.states[i] != PixelState::Scored) continue;
     ASSERT_EQ(visibility[i], truth.lit[i] != 0 ? 1.0f : 0.0f);
@@ -33,7 +33,7 @@ TEST_F(FilteredTruthTest, AConcaveCreaseCastsNoShadow) {
   const Receivers& receivers = corner.lit.receivers();
   ASSERT_EQ(corner.lit.truth().litCount, receivers.scored);
   size_t inside = 0;
-  for (const int kind : {glsl::kFilterBilinear, glsl::kFilterJitter4x4}) {
+  for (const int kind : {glsl::kShadowFilterBilinear, glsl::kShadowFilterJitter4x4}) {
     const std::vector<float> visibility = corner.lit.filteredTruth(kind);
     for (size_t i = 0; i < visibility.size(); ++i) {
       const glm::dvec3& at = receivers.samples[i].positionW;
@@ -54,7 +54,7 @@ TEST_F(FilteredTruthTest, ItSoftensEdgesAndKeepsTheMean) {
   double lit = 0.0;
   for (const uint8_t l : truth.lit) lit += l;
   size_t before = 0;
-  for (const int kind : {glsl::kFilterBilinear, glsl::kFilterJitter4x4}) {
+  for (const int kind : {glsl::kShadowFilterBilinear, glsl::kShadowFilterJitter4x4}) {
     const std::vector<float> visibility = block.lit.filteredTruth(kind);
     double sum = 0.0;
     size_t between = 0;

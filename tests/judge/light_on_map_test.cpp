@@ -67,10 +67,22 @@ TEST_F(LightOnMapTest, DrawingAgainGivesTheSameBits) {
   }
 }
 
+TEST_F(LightOnMapTest, DrawingAgainReplacesWhatWasThere) {
+  LitMap map(device(), "contact", volumeParameterization(), 64, smallSetup());
+  const gpu::Buffer& bits = *map.lit.occluders().bits();
+  const auto once = gpu::downloadAs<uint32_t>(device(), bits);
+  gpu::Commands commands(device(), "garbage");
+  commands.fill(bits, 0xdeadbeefu);
+  commands.submitAndWait();
+  EXPECT_NE(gpu::downloadAs<uint32_t>(device(), bits), once);
+  map.lit.redraw();
+  EXPECT_EQ(gpu::downloadAs<uint32_t>(device(), bits), once);
+}
+
 TEST_F(LightOnMapTest, WhatABiasReadsIsDrawnForIt) {
   LitMap map(device(), "contact", spotParameterization(), 64, smallSetup());
   map.judge("dual");
-  const Occluders& two = map.lit.occluders(findBias("dual").content);
+  const Occluders& two = map.lit.occluders(findBias("dual").channels);
   EXPECT_NE(&two, &map.lit.occluders());
   const std::vector<float> first = two.downloadDepth(device()), second = two.downloadSecondDepth(device());
   EXPECT_EQ(first, map.lit.occluders().downloadDepth(device()));
@@ -91,6 +103,9 @@ TEST_F(LightOnMapTest, LabelsFollowFromVerdictsAndTruth) {
         ASSERT_EQ(label == Label::NotScored, !scored);
         if (!scored) continue;
         const bool lit = map.lit.truth().lit[i] != 0;
+        if (std::ranges::find(result.edgeOn, i) == result.edgeOn.end()) {
+          ASSERT_EQ(result.verdicts[i] == Verdict::Shadow, result.visibility[i] == 0.0f);
+        }
         ASSERT_EQ(label == Label::Agree, result.verdicts[i] == (lit ? Verdict::Lit : Verdict::Shadow));
         if (label == Label::Acne || label == Label::EdgeShadow) {
           ASSERT_TRUE(lit);

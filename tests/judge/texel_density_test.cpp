@@ -16,10 +16,11 @@ using test::SeenScene;
 TEST(TexelDensity, OfASunOnAFloorIsTheWindowsTexelsTimesTheSine) {
   for (const double elevation : {90.0, 40.0, 15.0}) {
     const SeenScene seen = test::see(test::longFloor(), test::alongTheFloor(), test::sun(elevation, 60.0), 32);
-    const FittedMap fitted = seen.fit(directionalParameterization(), {.snap = false}, 512);
+    const FittedMap fitted = seen.fit(directionalParameterization(), {kSnap(false)}, 512);
     // The window's own size, from the scale of its matrix: 2 / extent.
     const glm::mat4& m = fitted.map.mapLayers[0].clipFromLight;
     const double texels = 0.25 * std::abs(static_cast<double>(m[0][0]) * static_cast<double>(m[1][1])) * 512 * 512;
+    size_t onTheFloor = 0;
     for (size_t i = 0; i < seen.receivers.states.size(); ++i) {
       const SurfaceSample& sample = seen.receivers.samples[i];
       if (seen.receivers.states[i] != PixelState::Scored || sample.normalW.y < 0.999) continue;
@@ -27,7 +28,9 @@ TEST(TexelDensity, OfASunOnAFloorIsTheWindowsTexelsTimesTheSine) {
       ASSERT_TRUE(density.has_value());
       // A ray's ends round to 2^-24 of some 100 m, 6e-6 of texels of 0.05 to 0.3 m.
       EXPECT_NEAR(*density / (texels * std::sin(glm::radians(elevation))), 1.0, 2e-3);
+      ++onTheFloor;
     }
+    EXPECT_GT(onTheFloor, size_t{32 * 32 / 4}) << elevation;
   }
 }
 
@@ -35,7 +38,7 @@ TEST(TexelDensity, OfASunOnAFloorIsTheWindowsTexelsTimesTheSine) {
 TEST(TexelDensity, IsTheNumberOfTexelsOnASquareMetre) {
   const SeenScene seen = test::see(test::longFloor(), test::alongTheFloor(), test::sun(50.0, 60.0), 64);
   for (const Warp warp : {Warp::None, Warp::Psm, Warp::Lispsm, Warp::Tsm}) {
-    const FittedMap fitted = seen.fit(directionalParameterization(), {.warp = warp}, 1024);
+    const FittedMap fitted = seen.fit(directionalParameterization(), {kWarp(warp)}, 1024);
     const glm::dvec3 middle(0.2, 0.0, 46.0);
     const double size = 0.6;
     std::set<std::pair<int, int>> met;
@@ -54,9 +57,9 @@ TEST(TexelDensity, IsTheNumberOfTexelsOnASquareMetre) {
     // Texels that the square's edge cuts count whole: the square and half a texel on each side, and half of
     // that.
     const double side = std::sqrt(expected);
-    EXPECT_GT(expected, 50.0) << warpName(warp);
-    EXPECT_GT(static_cast<double>(met.size()), expected) << warpName(warp);
-    EXPECT_LT(static_cast<double>(met.size()), (side + 2.0) * (side + 2.0) * 1.15) << warpName(warp);
+    EXPECT_GT(expected, 50.0) << kWarp.text(warp);
+    EXPECT_GT(static_cast<double>(met.size()), expected) << kWarp.text(warp);
+    EXPECT_LT(static_cast<double>(met.size()), (side + 2.0) * (side + 2.0) * 1.15) << kWarp.text(warp);
   }
 }
 

@@ -1,4 +1,4 @@
-// Biases know nothing of fits, warps and cascades: adaptive keeps `slope` clean on all of them, and a result
+// Biases know nothing of fits, warps and cascades: adaptive keeps `tilted-planes` clean on all of them, and a result
 // says which it was.
 #include "base/file.h"
 #include "judge/texel_density.h"
@@ -6,6 +6,7 @@
 #include "lab/compare/results.h"
 #include "lab/core/maps.h"
 #include "lab/picture/pictures.h"
+#include "planar/planar_map.h"
 #include "tests/gpu_fixture.h"
 
 #include <set>
@@ -18,20 +19,21 @@ namespace {
 using Json = nlohmann::json;
 
 TEST(FitAndWarp, AdaptiveHasNeitherAcneNorLeakOnSlopeUnderAnyOfThem) {
-  const SetupOptions setup{.scene = "slope", .size = "256"};
+  const SetupOptions setup{.scene = "tilted-planes", .size = "256"};
   const Session session({.validation = true}, setup);
   ShadowPasses passes(session);
   std::vector<MapOptions> all;
   for (const WindowFit fit : {WindowFit::None, WindowFit::Tight, WindowFit::Focused}) {
-    for (const Warp warp : {Warp::None, Warp::Psm, Warp::Lispsm, Warp::Tsm}) all.push_back({.fit = fit, .warp = warp});
-    all.push_back({.fit = fit, .cascades = 4});
+    for (const Warp warp : {Warp::None, Warp::Psm, Warp::Lispsm, Warp::Tsm})
+      all.push_back({kWindowFit(fit), kWarp(warp)});
+    all.push_back({kWindowFit(fit), kCascades(4)});
   }
-  all.push_back({.snap = false});
+  all.push_back({kSnap(false)});
   for (const char* name : {"spot", "directional"}) {
     const LightOnMap light = openLight(session, passes, *parseMaps(name).front(), {});
     for (const MapOptions& options : all) {
-      const std::string what = std::string(name) + " " + windowFitName(options.fit) + " " + warpName(options.warp) +
-                               " " + std::to_string(options.cascades);
+      const std::string what = std::string(name) + " " + options.text(kWindowFit) + " " + options.text(kWarp) + " " +
+                               options.text(kCascades);
       LightOnMap lit(light, {.side = 256, .options = options});
       const LabelledResult none = lit.judge(atDefaults(findBias("none"), session));
       EXPECT_GT(none.labels.count(Label::Acne), lit.receivers().scored / 50) << what;
@@ -56,12 +58,12 @@ TEST(FitAndWarp, AResultSaysHowItsMapWasFitted) {
     options.mapOptions = mapOptions;
     return Json::parse(resultsJson(session, compare(session, options), "gnomon compare")).at("rows")[0];
   };
-  const Json warped = rowOf({.fit = WindowFit::Tight, .warp = Warp::Lispsm});
+  const Json warped = rowOf({kWindowFit(WindowFit::Tight), kWarp(Warp::Lispsm)});
   EXPECT_EQ(warped.at("params").at("fit"), "tight");
   EXPECT_EQ(warped.at("params").at("warp"), "lispsm");
   EXPECT_EQ(warped.at("params").at("snap"), "off");
   EXPECT_EQ(warped.at("params").at("cascades"), 1);
-  const Json split = rowOf({.cascades = 3});
+  const Json split = rowOf({kCascades(3)});
   EXPECT_EQ(split.at("params").at("cascades"), 3);
   EXPECT_EQ(split.at("params").at("snap"), "on");
   EXPECT_EQ(split.at("layers"), 3);

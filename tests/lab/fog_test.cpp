@@ -1,5 +1,6 @@
 // Light shafts run through the lab: their errors, their files, and a reference that is traced once.
 #include "lab/fog/fog.h"
+#include "vsv/volume_parameterization.h"
 
 #include "base/error.h"
 #include "base/file.h"
@@ -37,7 +38,7 @@ class FogTest : public ::testing::Test {
                        .mapSide = 512,
                        .truth = true,
                        .repeats = 1};
-    options.map.volumeSize = {.alpha = 256, .theta = 256, .phi = 256};
+    options.map.set(kVolumeSize({.alpha = 256, .theta = 256, .phi = 256}));
     return options;
   }
 
@@ -236,7 +237,7 @@ TEST_F(FogTest, AMovingLightFlickersLessInTheReferenceThanInAMarch) {
 }
 
 TEST_F(FogTest, ALightWithoutAPlaceIsRefused) {
-  const Session session = open({.scene = "slope", .size = "8"});
+  const Session session = open({.scene = "tilted-planes", .size = "8"});
   ASSERT_FALSE(session.scene().lights.empty());
   const Session atEye = open({.scene = "grate", .light = "0,1,5", .camera = "eye:0,1,5,target:0,0,0", .size = "8"});
   ShadowPasses passes(atEye);

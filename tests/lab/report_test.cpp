@@ -210,15 +210,24 @@ TEST_F(ReportTest, AFilteredRowIsHeldAgainstTheFilteredTruth) {
 }
 
 TEST_F(ReportTest, TellsTuningPlacesAndTheCommandOfARow) {
+  EXPECT_EQ(page().find("Make it again"), std::string::npos);  // schema 2 has no commands of rows
+  json_["rows"][1]["command"] = "gnomon compare 'l'\\''shape.glb' --maps spot --constant-offset 0.0125";
   const std::string html = page();
   EXPECT_NE(html.find("19 values tried"), std::string::npos);
   EXPECT_NE(html.find("camera balcony"), std::string::npos);
   EXPECT_NE(html.find("map of 32 × 32 texels"), std::string::npos);
   EXPECT_NE(html.find("data-x=\"28\" data-y=\"25\" data-size=\"16\""), std::string::npos);
-  EXPECT_NE(html.find("<code>gnomon compare &apos;l&apos;\\&apos;&apos;shape.glb&apos; --size 96x64 "
-                      "--repeats 1 --maps spot "
-                      "--biases constant --map-size 64 --constant-offset 0.0125 --cull solids</code>"),
+  EXPECT_NE(html.find("<code>gnomon compare &apos;l&apos;\\&apos;&apos;shape.glb&apos; --maps spot "
+                      "--constant-offset 0.0125</code>"),
             std::string::npos);
+}
+
+TEST_F(ReportTest, KnobsHaveTheUnitThatTheFileNames) {
+  for (auto& row : json_["rows"]) row["tuning"] = nullptr;
+  json_["rows"][1]["params"] = {{"offset", 0.25}, {"taps", 4}, {"texels", 1.5}};
+  json_["rows"][1]["units"] = {{"offset", "m"}, {"texels", "texels"}};
+  const std::string html = page();
+  EXPECT_NE(html.find("offset\u00a00.25\u00a0m, texels\u00a01.5<"), std::string::npos);  // taps is none
 }
 
 TEST_F(ReportTest, SaysWhichPicturesAreMissing) {

@@ -101,7 +101,7 @@ TEST_F(ReproduceTest, DouAndOthers) {
 
 TEST_F(ReproduceTest, OnAUsersSceneWhatItLacksIsLeftOutAndSaid) {
   // One camera, which does not turn its back on the lamp.
-  const Reproduction result = run("dou2014", "slope");
+  const Reproduction result = run("dou2014", "tilted-planes");
   for (const char* what : {"figure 6", "figure 7", "figure 13"})
     EXPECT_NE(reproductionText(result).find(std::string("left out            ") + what + ": "), std::string::npos)
         << reproductionText(result);

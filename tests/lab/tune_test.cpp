@@ -33,7 +33,7 @@ TEST_F(TuneTest, ErrorsAreThoseOfTheLabels) {
   for (const char* name : {"constant", "normal-offset", "dual", "slope", "normal-offset", "constant"}) {
     for (const float share : {0.0f, 1.0f, 8.0f, 0.3f}) {
       Method m = method(name);
-      m.params.*knobsOf(*m.bias).front().field *= share;
+      m.params.knobs[0] *= share;
       const LabelledResult judged = lit_.judge(m);
       EXPECT_EQ(evaluator_.biasErrors(m), judged.labels.count(Label::Acne) + judged.labels.count(Label::Leak))
           << name << " " << share;
@@ -46,12 +46,12 @@ TEST_F(TuneTest, NothingNearbyIsBetter) {
     const Method start = method(name);
     const TunedMethod tuned = tune(evaluator_, start);
     EXPECT_LE(tuned.biasErrors, evaluator_.biasErrors(start)) << name;
-    for (const BiasKnob& knob : knobsOf(*start.bias)) {
+    for (const Knob& knob : knobsOf(*start.bias)) {
       const float unit = knob.defaultOfSceneScale ? evaluator_.sceneScale() : 1.0f;
       for (int i = 0; i < kTuneGrid; ++i) {
         Method other = tuned.method;
         const double t = static_cast<double>(i) / (kTuneGrid - 1);
-        other.params.*knob.field =
+        valueOf(other.params, *other.bias, knob) =
             static_cast<float>(knob.searchLower * std::pow(knob.searchUpper / knob.searchLower, t) * unit);
         EXPECT_LE(tuned.biasErrors, evaluator_.biasErrors(other)) << name << " " << knob.name << " " << i;
       }
@@ -63,7 +63,7 @@ TEST_F(TuneTest, ItIsWorthItAndTheSameEveryTime) {
   const TunedMethod a = tune(evaluator_, method("constant"));
   TuningEvaluator again(lit_);
   const TunedMethod b = tune(again, method("constant"));
-  EXPECT_EQ(a.method.params.constantOffset, b.method.params.constantOffset);
+  EXPECT_EQ(a.method.params.knobs[0], b.method.params.knobs[0]);
   EXPECT_EQ(a.biasErrors, b.biasErrors);
   EXPECT_LT(a.biasErrors, evaluator_.biasErrors(method("none")) / 4);
 }

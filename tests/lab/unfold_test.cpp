@@ -36,7 +36,7 @@ TEST(Unfold, TheCrossIsOfOnePiece) {
   constexpr int kSide = 64;
   const FittedMap fitted = cube(kSide);
   const glm::u8vec3 outside(0, 0, 0);
-  const Image8 picture = unfoldedPicture(directions(fitted), fitted.map, outside);
+  const Image8 picture = unfoldedPicture(directions(fitted), fitted, outside);
   ASSERT_EQ(picture.width, 4 * kSide);
   ASSERT_EQ(picture.height, 3 * kSide);
   const auto at = [&](int x, int y) {
@@ -80,7 +80,7 @@ TEST(Unfold, SolidAnglesOfAParaboloidAreTheSphereAndItsRim) {
 TEST(Unfold, OutsideTheDiscsIsMarked) {
   const FittedMap fitted =
       makeParaboloidMap(glm::dvec3(0.0), {0, -1, 0}, ParaboloidRaster::Exact, 0.1, 10.0, 64, 10.0f);
-  const Image8 picture = unfoldedPicture(Image8(128, 64, 3, 200), fitted.map, {1, 2, 3});
+  const Image8 picture = unfoldedPicture(Image8(128, 64, 3, 200), fitted, {1, 2, 3});
   EXPECT_EQ(picture.at(0, 0)[1], 2);
   EXPECT_EQ(picture.at(32, 32)[1], 200);
   EXPECT_EQ(picture.at(127, 63)[2], 3);

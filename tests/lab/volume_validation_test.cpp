@@ -1,6 +1,7 @@
 // A session's volume, validated: sound as it is, reported in full, and unsound where any part says so.
 #include "lab/volume/volume_report.h"
 #include "tests/gpu_fixture.h"
+#include "vsv/volume_parameterization.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,8 +12,8 @@ class VolumeValidationTest : public ::testing::Test {
  protected:
   static VolumeOptions options(VolumeSource source) {
     VolumeOptions options{.mapSide = 256, .validate = true, .command = "gnomon vsv contact"};
-    options.map.volumeSize = {.alpha = 128, .theta = 128, .phi = 128};
-    options.map.volumeSource = source;
+    options.map.set(kVolumeSize({.alpha = 128, .theta = 128, .phi = 128}));
+    options.map.set(kVolumeSource(source));
     return options;
   }
   std::vector<std::string> messages_;

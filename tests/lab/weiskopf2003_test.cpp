@@ -21,7 +21,7 @@ class Figure5 : public ::testing::Test {
     options.mapSide = 96;
     options.cull = cull;
     options.repeats = 1;
-    for (const BiasKnob& knob : options.biases.front()->knobs) options.knobs.push_back({&knob, offset});
+    for (const Knob& knob : options.biases.front()->knobs) options.knobs.push_back({&knob, offset});
     const Row row = compare(session_, options).rows.front();
     return {row.acne, row.leak};
   }

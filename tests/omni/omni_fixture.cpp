@@ -27,6 +27,7 @@ World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3
   world.scene = std::move(scene);
   world.tracer = std::make_unique<Tracer>(world.scene);
   world.buffers = createSceneBuffers(device, world.scene);
+  world.renderer = std::make_unique<MapRenderer>(device);
   const auto positional =
       std::ranges::find_if(world.scene.lights, [](const Light& light) { return light.type != LightType::Directional; });
   world.light = {.type = LightType::Point, .positionW = lightW ? *lightW : glm::dvec3(positional->positionW)};
@@ -45,23 +46,19 @@ FittedMap fitWhole(const World& world, const Parameterization& map, int side, co
 }
 
 Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
-                  MapContent content, SecondLayer method) {
-  MapImage image(device, fitted, content);
-  const MapRenderer renderer(device);
+                  ChannelSet channels, SecondLayer method) {
+  MapImage image(device, fitted, channels);
   gpu::Commands commands(device, "shadow map");
-  renderer.record(commands, world.buffers, image, world.light, cull, method);
+  world.renderer->record(commands, world.buffers, image, world.light, cull, method);
   commands.submitAndWait();
-  Layers layers{.z1 = gpu::downloadAs<float>(device, image.depth())};
-  if (content == MapContent::TwoLayers) layers.z2 = gpu::downloadAs<float>(device, image.secondDepth());
+  const auto depthsOf = [&](ChannelSet channel) {
+    return (image.channels() & channel) != 0 ? gpu::downloadAs<float>(device, image.image(channel))
+                                             : std::vector<float>();
+  };
+  const Layers layers{.z1 = depthsOf(glsl::kChannelDepth),
+                      .z2 = depthsOf(glsl::kChannelSecondDepth),
+                      .zBack = depthsOf(glsl::kChannelBackDepth)};
   return layers;
-}
-
-RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place) {
-  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, layer, glm::vec2(place / static_cast<double>(fitted.map.side)));
-  const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
-                                  glm::dvec3(fitted.frame.backW));
-  return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
-          .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))};
 }
 
 TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const std::vector<float>& depths,

@@ -7,6 +7,7 @@
 #include "scene/generate.h"
 #include "shadow/map_image.h"
 #include "tests/gpu_fixture.h"
+#include "tests/shadow/map_fixture.h"
 #include "truth/tracer.h"
 
 #include <functional>
@@ -22,6 +23,7 @@ struct World {
   std::unique_ptr<Tracer> tracer;
   SceneBuffers buffers;
   LightModel light;
+  std::unique_ptr<MapRenderer> renderer;
 };
 // With the scene's first light that has a position, or a point light at `lightW`.
 World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3> lightW = {});
@@ -30,13 +32,10 @@ World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3
 FittedMap fitWhole(const World& world, const Parameterization& map, int side, const MapOptions& options = {});
 
 struct Layers {
-  std::vector<float> z1, z2;  // layer after layer; z2 only of TwoLayers
+  std::vector<float> z1, z2, zBack;  // slice after slice; empty where the map has no such channel
 };
 Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
-                  MapContent content = MapContent::OneLayer, SecondLayer method = SecondLayer::Blend);
-
-// The light ray through a place on a layer, in texels (the centre of texel (x, y) is (x + 0.5, y + 0.5)).
-RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place);
+                  ChannelSet channels = glsl::kChannelDepth, SecondLayer method = SecondLayer::Blend);
 
 // Every held texel against the first hit of its own ray. A texel near an edge of what is seen may hold the
 // other side of it.

@@ -23,19 +23,19 @@ struct Kind {
 };
 
 std::vector<Kind> kinds() {
-  return {{"cube", cubeParameterization(), {.cubeDepth = CubeDepth::Hyperbolic}},
-          {"cube, radial", cubeParameterization(), {.cubeDepth = CubeDepth::Radial}},
+  return {{"cube", cubeParameterization(), {kCubeDepth(CubeDepth::Hyperbolic)}},
+          {"cube, radial", cubeParameterization(), {kCubeDepth(CubeDepth::Radial)}},
           {"paraboloid", paraboloidParameterization(), {}},
           {"paraboloid askew",
            paraboloidParameterization(),
-           {.paraboloidAxisW = glm::normalize(glm::dvec3(1.0, 0.3, -0.7))}}};
+           {kParaboloidAxisW(glm::normalize(glm::dvec3(1.0, 0.3, -0.7)))}}};
 }
 
 // And what is not exact.
 std::vector<Kind> kindsOfAllRasters() {
   std::vector<Kind> all = kinds();
   all.push_back(
-      {"paraboloid tessellated", paraboloidParameterization(), {.paraboloidRaster = ParaboloidRaster::Tessellated}});
+      {"paraboloid tessellated", paraboloidParameterization(), {kParaboloidRaster(ParaboloidRaster::Tessellated)}});
   return all;
 }
 
@@ -111,7 +111,6 @@ TEST_F(RenderedLayers, EveryTexelHoldsTheFirstHitOfItsRay) {
       EXPECT_EQ(errors.off, 0u) << scene << ", " << kind.name << ", worst " << errors.worst << " m";
       EXPECT_LT(errors.atEdges, errors.held / (paraboloid ? 5000 : 1000)) << scene << ", " << kind.name;
       EXPECT_GT(errors.covered, errors.held / 8) << scene;
-      std::printf("%s, %s: %zu of %zu texels at edges differ\n", scene, kind.name, errors.atEdges, errors.held);
     }
   }
 }
@@ -122,8 +121,9 @@ TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
     for (const Kind& kind : kindsOfAllRasters()) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 64, kind.options);
       for (const CullMode cull : {CullMode::None, CullMode::Solids}) {
-        const Layers blended = test::drawLayers(device(), world, fitted, cull, MapContent::TwoLayers);
-        const Layers peeled = test::drawLayers(device(), world, fitted, cull, MapContent::TwoLayers, SecondLayer::Peel);
+        const Layers blended = test::drawLayers(device(), world, fitted, cull, glsl::kChannelSecondDepth);
+        const Layers peeled =
+            test::drawLayers(device(), world, fitted, cull, glsl::kChannelSecondDepth, SecondLayer::Peel);
         EXPECT_EQ(blended.z1, peeled.z1) << scene << ", " << kind.name;
         EXPECT_EQ(blended.z2, peeled.z2) << scene << ", " << kind.name;
         size_t seconds = 0;
@@ -140,14 +140,14 @@ TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
 // What is not sent to a layer changes nothing on it (src/shadow/layer_culling.h).
 TEST_F(RenderedLayers, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
   std::vector<Kind> all = kindsOfAllRasters();
-  all.push_back({"paraboloid by vertex", paraboloidParameterization(), {.paraboloidRaster = ParaboloidRaster::Vertex}});
+  all.push_back({"paraboloid by vertex", paraboloidParameterization(), {kParaboloidRaster(ParaboloidRaster::Vertex)}});
   for (const char* scene : {"crowd:50000", "double-torus", "sheets"}) {
     World world = test::openWorld(device(), openScene(scene), glm::dvec3(0.3, 1.1, -0.2));
     ASSERT_FALSE(world.buffers.partBoundsW.empty()) << scene;
     for (const Kind& kind : all) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 96, kind.options);
       const auto drawAll = [&] {
-        return test::drawLayers(device(), world, fitted, CullMode::None, MapContent::TwoLayers);
+        return test::drawLayers(device(), world, fitted, CullMode::None, glsl::kChannelSecondDepth);
       };
       const Layers parts = drawAll();
       std::vector<Draw> cut = world.buffers.draws;
@@ -163,24 +163,26 @@ TEST_F(RenderedLayers, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
   }
 }
 
-// Leaving the back faces of solids out uncovers silhouettes and nothing else, whichever way a layer turns the
+// Leaving the back faces of solids out changes nothing (map_image_test.cpp says why), whichever way a layer turns the
 // winding.
-TEST_F(RenderedLayers, CullingSolidsChangesOnlySilhouettes) {
+TEST_F(RenderedLayers, CullingSolidsChangesNoTexel) {
   const World world = open("contact");
   ASSERT_TRUE(std::ranges::any_of(world.buffers.draws, &Draw::solid));
   for (const Kind& kind : kindsOfAllRasters()) {
     const FittedMap fitted = test::fitWhole(world, kind.map, 128, kind.options);
     const Layers all = test::drawLayers(device(), world, fitted, CullMode::None);
     const Layers culled = test::drawLayers(device(), world, fitted, CullMode::Solids);
-    const Layers back = test::drawLayers(device(), world, fitted, CullMode::Solids, MapContent::BackFaces);
+    const Layers back = test::drawLayers(device(), world, fitted, CullMode::Solids, glsl::kChannelBackDepth);
     size_t different = 0, behind = 0;
     for (size_t i = 0; i < all.z1.size(); ++i) {
       ASSERT_LE(all.z1[i], culled.z1[i]);
-      ASSERT_LE(all.z1[i], back.z1[i]);
+      ASSERT_LE(all.z1[i], back.zBack[i]);
       different += all.z1[i] != culled.z1[i] ? 1 : 0;
-      behind += all.z1[i] < back.z1[i] ? 1 : 0;
+      behind += all.z1[i] < back.zBack[i] ? 1 : 0;
     }
-    EXPECT_LT(different, all.z1.size() / 500) << kind.name;
+    // Where a front face is cut in pieces and the back face beside it is not, their edge is drawn twice: measured 1.
+    const bool inPieces = std::string(kind.name).find("tessellated") != std::string::npos;
+    EXPECT_LE(different, inPieces ? 5u : 0u) << kind.name;
     EXPECT_GT(behind, all.z1.size() / 200) << kind.name;
   }
 }

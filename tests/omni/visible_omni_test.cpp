@@ -17,7 +17,7 @@ const Parameterization* const kMaps[] = {&cubeParameterization(), &paraboloidPar
 
 TEST_F(VisibleOmni, OnSlopeNoneHasPlentyOfAcneAndAdaptiveNone) {
   for (const Parameterization* map : kMaps) {
-    LitMap slope(device(), "slope", *map, 512, {.side = 512});
+    LitMap slope(device(), "tilted-planes", *map, 512, {.side = 512});
     const LabelledResult none = slope.judge("none");
     EXPECT_GT(none.labels.count(Label::Acne), slope.lit.receivers().scored / 5) << map->name();
     const LabelledResult adaptive = slope.judge("adaptive");
@@ -51,7 +51,7 @@ TEST_F(VisibleOmni, TheSeamShowsNoMoreBiasErrorThanElsewhere) {
   // The seam's plane holds the light, the crease of the corner and the middle of a wall.
   const glm::dvec3 axisW = glm::cross(glm::dvec3(0.0, 0.0, 2.0) - lightW, glm::dvec3(2.0, 1.5, 0.0) - lightW);
   LitMap corner(device(), "corner", paraboloidParameterization(), 512,
-                {.side = 256, .options = {.paraboloidAxisW = glm::normalize(axisW)}});
+                {.side = 256, .options = {kParaboloidAxisW(glm::normalize(axisW))}});
   for (const char* bias : {"adaptive", "dual"}) {
     const Method method = atDefaults(findBias(bias), corner.seen);
     const LabelledResult result = corner.lit.judge(method);
@@ -71,8 +71,6 @@ TEST_F(VisibleOmni, TheSeamShowsNoMoreBiasErrorThanElsewhere) {
     const double expected =
         static_cast<double>(wrongElsewhere) / static_cast<double>(elsewhere) * static_cast<double>(atSeam);
     EXPECT_LE(static_cast<double>(wrongAtSeam), expected + 3.0 * std::sqrt(expected + 1.0)) << bias;
-    std::printf("%s: %zu of %zu wrong at the seam, %zu of %zu elsewhere\n", bias, wrongAtSeam, atSeam, wrongElsewhere,
-                elsewhere);
   }
 }
 

@@ -56,7 +56,8 @@ INSTANTIATE_TEST_SUITE_P(All, Samples,
 TEST(Samples05, AMapOfOnesOwnIsScoredBesideTheCube) {
   const test::TemporaryFolder folder;
   const std::filesystem::path table = folder.path() / "stdout";
-  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/05_map_of_my_own slope 98304 >" + table.string();
+  const std::string command =
+      std::string(GNOMON_SAMPLES_DIR) + "/05_map_of_my_own tilted-planes 98304 >" + table.string();
   ASSERT_EQ(std::system(command.c_str()), 0);
   std::istringstream lines(readFile(table));
   int rows = 0;  // ... agree acne leak edge_sh edge_li uncovered bias-error rmse build-ms shade-ms

@@ -120,7 +120,7 @@ TEST(TriangleCount, crowdSharesItsMeshes) {
 }
 
 TEST(Slope, everyTileFacesTheLampAndTheLastHardly) {
-  const Scene scene = openScene("slope");
+  const Scene scene = openScene("tilted-planes");
   const glm::dvec3 lamp(scene.lights[0].positionW);
   double smallest = 1.0;
   for (const Mesh& mesh : scene.meshes) {
@@ -133,7 +133,7 @@ TEST(Slope, everyTileFacesTheLampAndTheLastHardly) {
 }
 
 TEST(Slope, tilesKeepTwoPercentOfTheDiagonalApart) {
-  const Scene scene = openScene("slope");
+  const Scene scene = openScene("tilted-planes");
   const float gap = 0.02f * computeBounds(scene).diagonal();
   // Circles around the tiles enclose them.
   for (size_t i = 0; i < scene.meshes.size(); ++i) {

@@ -278,7 +278,7 @@ TEST(GltfMaterials, maskedTextureHasItsHolesWhereTheImageHas) {
   EXPECT_EQ(material.alphaMode, AlphaMode::Mask);
   EXPECT_EQ(material.alphaCutoff, 0.25f);
   EXPECT_TRUE(material.doubleSided);
-  EXPECT_EQ(scene.textures[0].filterMode, glsl::kFilterNearest);
+  EXPECT_EQ(scene.textures[0].filterMode, glsl::kTexFilterNearest);
   EXPECT_EQ(scene.textures[0].wrapS, glsl::kWrapClamp);
   EXPECT_EQ(scene.textures[0].wrapT, glsl::kWrapMirror);
   EXPECT_EQ(baseColorAt(scene, material, glm::vec2(0.2f, 0.5f)), glm::vec4(1, 0, 0, 1));

@@ -114,13 +114,16 @@ INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::ValuesIn(generatedScenes()),
 TEST(RoundTripOfFiles, realScenesLoadAgainEqual) {
   if (!fs::is_directory(GNOMON_SHARED_SCENES)) GTEST_SKIP() << "skipped: ../shared/scenes is not here";
   const Folder folder;
+  size_t scenes = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(GNOMON_SHARED_SCENES)) {
     if (entry.path().extension() != ".glb" && entry.path().extension() != ".gltf") continue;
     const Scene scene = loadGltf(entry.path());
     const fs::path path = folder / (scene.name + ".glb");
     saveGlb(scene, path);
     expectEqual(scene, loadGltf(path));
+    ++scenes;
   }
+  EXPECT_GT(scenes, 0u);
 }
 
 // Every kind of light and material at once, with awkward names, directions and numbers.
@@ -133,7 +136,7 @@ TEST(RoundTripOfFiles, awkwardSceneLoadsAgainEqual) {
   scene.materials[1].alphaCutoff = 0.1f;
   scene.textures.push_back(scene.textures[0]);
   scene.textures[1].wrapS = glsl::kWrapMirror;
-  scene.textures[1].filterMode = glsl::kFilterLinear;
+  scene.textures[1].filterMode = glsl::kTexFilterLinear;
   scene.materials[1].baseColorTexture = 1;
   scene.materials[1].baseColor = glm::vec4(0.1f, 1.0f / 3.0f, 0.7f, 0.9f);
   scene.lights.clear();

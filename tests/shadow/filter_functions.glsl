@@ -8,6 +8,7 @@ GNOMON_SHARED_BEGIN
 
 struct FilterQuery {
   int kind;
+  FilterParams params;
   vec2 position;  // texels
   ivec2 pixel;
   int i;
@@ -17,15 +18,19 @@ struct FilterAnswer {
   ivec2 texel;
   float weight;
   vec2 kernel;
+  int known;  // 1: its taps, 2: its kernel
 };
 
 GNOMON_FN FilterAnswer answerFilter(FilterQuery query) {
   uint seed = pixelSeed(query.pixel);
-  FilterTap tap = filterTap(query.kind, query.position, seed, query.i);
+  bool tapKnown;
+  bool kernelKnown;
+  FilterTap tap = filterTap(query.kind, query.params, query.position, seed, query.i, tapKnown);
   FilterAnswer answer;
   answer.texel = tap.texel;
   answer.weight = tap.weight;
-  answer.kernel = kernelOffset(query.kind, seed, query.i);
+  answer.kernel = kernelOffset(query.kind, query.params, seed, query.i, kernelKnown);
+  answer.known = (tapKnown ? 1 : 0) + (kernelKnown ? 2 : 0);
   return answer;
 }
 

@@ -89,7 +89,6 @@ TEST_F(LayerCullingTest, NoTriangleThatALayerMayShowIsLeftOutAndMostOthersAre) {
       }
     }
   }
-  std::printf("%zu triangles, %zu may be seen, %zu are drawn, %zu without parts\n", all, needed, drawn, uncut);
   EXPECT_GT(needed, all / 50);
   EXPECT_LT(uncut, all);
   EXPECT_LT(drawn - needed,

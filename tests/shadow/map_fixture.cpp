@@ -52,16 +52,26 @@ std::vector<MapSample> samplesOf(const FittedMap& fitted, size_t count, uint32_t
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
   std::vector<MapSample> samples(count);
-  for (MapSample& sample : samples) {
+  for (size_t i = 0; i < count; ++i) {
+    MapSample& sample = samples[i];
+    sample.layer = static_cast<int>(i % static_cast<size_t>(fitted.map.layerCount));
     sample.uv = {unit(random), unit(random)};
-    const glsl::Ray ray = glsl::mapTexelRay(fitted.map, 0, sample.uv);
+    const glsl::Ray ray = glsl::mapTexelRay(fitted.map, sample.layer, sample.uv);
     // Even in distance, so that both ends of a hyperbolic depth are met.
-    const float length = glsl::mapDistance(fitted.map, 0, ray, 1.0f);
+    const float length = glsl::mapDistance(fitted.map, sample.layer, ray, 1.0f);
     const float t = (0.001f + 0.998f * unit(random)) * length;
     sample.posL = ray.origin + ray.dir * t;
-    sample.depth = glsl::mapDepth(fitted.map, 0, sample.posL);
+    sample.depth = glsl::mapDepth(fitted.map, sample.layer, sample.posL);
   }
   return samples;
+}
+
+RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place) {
+  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, layer, glm::vec2(place / static_cast<double>(fitted.map.side)));
+  const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
+                                  glm::dvec3(fitted.frame.backW));
+  return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),
+          .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))};
 }
 
 glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth) {
@@ -72,7 +82,7 @@ glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth) {
 }
 
 Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,
-                int mapSide, CullMode cull, MapContent content) {
+                int mapSide, CullMode cull, ChannelSet channels) {
   Rendered r;
   r.scene = openScene(sceneName);
   r.tracer = std::make_unique<Tracer>(r.scene);
@@ -91,16 +101,16 @@ Rendered render(const gpu::Device& device, const std::string& sceneName, const P
   for (size_t i = 0; i < r.receivers.states.size(); ++i)
     if (r.receivers.states[i] == PixelState::Scored) scored.push_back(r.receivers.samples[i].positionW);
   r.fitted = map.fit({.scene = r.scene, .light = r.light, .receiversW = scored, .side = mapSide, .camera = r.view});
-  r.image = draw(device, r, content, cull);
+  r.renderer = std::make_unique<MapRenderer>(device);
+  r.image = draw(device, r, channels, cull);
   return r;
 }
 
-std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, MapContent content, CullMode cull,
+std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, ChannelSet channels, CullMode cull,
                                SecondLayer method) {
-  auto image = std::make_unique<MapImage>(device, r.fitted, content);
-  const MapRenderer renderer(device);
+  auto image = std::make_unique<MapImage>(device, r.fitted, channels);
   gpu::Commands commands(device, "shadow map");
-  renderer.record(commands, r.buffers, *image, r.light, cull, method);
+  r.renderer->record(commands, r.buffers, *image, r.light, cull, method);
   commands.submitAndWait();
   return image;
 }

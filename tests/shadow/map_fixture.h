@@ -17,13 +17,17 @@ namespace gnomon::test {
 FittedMap fittedSpot();
 FittedMap fittedDirectional();
 
-// A point of the map's volume: the ray through a random uv, at a random depth.
+// A point of the map's volume: the ray through a random uv of a layer, at a random depth. Layers take turns.
 struct MapSample {
+  int layer;
   glm::vec2 uv;
   float depth;
   glm::vec3 posL;
 };
 std::vector<MapSample> samplesOf(const FittedMap& fitted, size_t count, uint32_t seed);
+
+// The light ray through a place on a layer, in texels (the centre of texel (x, y) is (x + 0.5, y + 0.5)).
+RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place);
 
 // A unit normal that faces the light at posL, at any angle to the ray up to `mostTanAngle`.
 glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth);
@@ -39,13 +43,14 @@ struct Rendered {
   LightModel light;
   Receivers receivers;
   FittedMap fitted;
+  std::unique_ptr<MapRenderer> renderer;  // of the image, and of what draw() draws
   std::unique_ptr<MapImage> image;
 };
 Rendered render(const gpu::Device& device, const std::string& sceneName, const Parameterization& map, int pictureSide,
-                int mapSide, CullMode cull, MapContent content = MapContent::OneLayer);
+                int mapSide, CullMode cull, ChannelSet channels = glsl::kChannelDepth);
 
-// The map of `r` with other content, or drawn another way.
-std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, MapContent content, CullMode cull,
+// The map of `r` with other channels, or drawn another way.
+std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, ChannelSet channels, CullMode cull,
                                SecondLayer method = SecondLayer::Blend);
 
 }  // namespace gnomon::test

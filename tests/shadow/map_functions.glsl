@@ -1,4 +1,4 @@
-// What planar_map_test.cpp and bias_test.cpp evaluate on both sides. The map itself is the buffer that shared/map.glsl
+// What planar_map_test.cpp and bias_on_the_gpu_test.cpp evaluate on both sides. The map itself is the buffer that shared/map.glsl
 // declares; in C++ it is the argument.
 #ifndef GNOMON_TEST_MAP_FUNCTIONS_GLSL
 #define GNOMON_TEST_MAP_FUNCTIONS_GLSL
@@ -45,21 +45,25 @@ struct BiasQuery {
   Receiver receiver;
   float z1;
   float z2;
+  float zBack;
 };
 
-// 0 shadow, 1 lit, 2 no such method.
+const int kNoSuchBias = 999;
+const uint kAnswerShadow = 0u;
+const uint kAnswerLight = 1u;
+const uint kAnswerUnknown = 2u;  // no such method
+
 GNOMON_FN uint answerBias(ShadowMap map, BiasQuery query) {
   Receiver receiver = biasReceiver(query.method, map, query.params, query.receiver);
   MapPoint point = mapProject(map, receiver.posL);
-  Tap tap;
-  tap.layer = point.layer;
-  tap.texel = mapTexel(map, point.uv);
-  tap.ray = mapTexelRay(map, tap.layer, mapTexelCenter(map, tap.texel));
+  ivec2 texel = mapTexel(map, point.uv);
+  Tap tap = emptyTap(point.layer, texel, mapTexelRay(map, point.layer, mapTexelCenter(map, texel)));
   tap.z1 = query.z1;
   tap.z2 = query.z2;
+  tap.zBack = query.zBack;
   bool known;
   bool lit = biasLit(query.method, map, query.params, receiver, tap, known);
-  return known ? (lit ? 1u : 0u) : 2u;
+  return known ? (lit ? kAnswerLight : kAnswerShadow) : kAnswerUnknown;
 }
 
 GNOMON_SHARED_END

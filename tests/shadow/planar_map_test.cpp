@@ -40,7 +40,7 @@ constexpr Kind kKinds[] = {{"Spot", true, Warp::None},
 FittedMap fittedKind(const Kind& kind) {
   if (kind.warp == Warp::None) return kind.spot ? fittedSpot() : fittedDirectional();
   const Parameterization& map = kind.spot ? spotParameterization() : directionalParameterization();
-  return test::see("contact", map, 64, 1).fit(map, {.warp = kind.warp});
+  return test::see("contact", map, 64, 1).fit(map, {kWarp(kind.warp)});
 }
 
 // The greatest and the least W of the layer: 1 without a warp.

@@ -97,17 +97,18 @@ LightModel sun(double elevationDegrees, double azimuthDegrees) {
 std::vector<MapOptions> allPlanarOptions() {
   std::vector<MapOptions> all;
   for (const WindowFit fit : {WindowFit::None, WindowFit::Tight, WindowFit::Focused}) {
-    for (const Warp warp : {Warp::None, Warp::Psm, Warp::Lispsm, Warp::Tsm}) all.push_back({.fit = fit, .warp = warp});
-    for (const int cascades : {2, 3, 4}) all.push_back({.fit = fit, .cascades = cascades});
-    all.push_back({.fit = fit, .snap = false});
-    all.push_back({.fit = fit, .snap = false, .cascades = 3});
+    for (const Warp warp : {Warp::None, Warp::Psm, Warp::Lispsm, Warp::Tsm})
+      all.push_back({kWindowFit(fit), kWarp(warp)});
+    for (const int cascades : {2, 3, 4}) all.push_back({kWindowFit(fit), kCascades(cascades)});
+    all.push_back({kWindowFit(fit), kSnap(false)});
+    all.push_back({kWindowFit(fit), kSnap(false), kCascades(3)});
   }
   return all;
 }
 
 std::string describe(const MapOptions& options) {
-  return fmt::format("fit {}, snap {}, warp {}, cascades {}", windowFitName(options.fit), options.snap,
-                     warpName(options.warp), options.cascades);
+  return fmt::format("fit {}, snap {}, warp {}, cascades {}", options.text(kWindowFit), options.text(kSnap),
+                     options.text(kWarp), options.text(kCascades));
 }
 
 }  // namespace gnomon::test

@@ -27,7 +27,7 @@ class SnappingTest : public gpu::GpuTest {
                                       .camera = camera,
                                       .options = options});
     if (!buffers_) buffers_ = createSceneBuffers(device(), *seen.scene);
-    MapImage image(device(), fitted, MapContent::OneLayer);
+    MapImage image(device(), fitted, glsl::kChannelDepth);
     const MapRenderer renderer(device());
     gpu::Commands commands(device(), "shadow map");
     renderer.record(commands, *buffers_, image, seen.light, CullMode::Solids);
@@ -47,18 +47,18 @@ class SnappingTest : public gpu::GpuTest {
   void expectHoldsStill(const SeenScene& seen, const Parameterization& map) {
     // The side of a texel on the floor, from its density there.
     for (const WindowFit fit : {WindowFit::None, WindowFit::Tight, WindowFit::Focused}) {
-      const FittedMap fitted = seen.fit(map, {.fit = fit});
+      const FittedMap fitted = seen.fit(map, {kWindowFit(fit)});
       const glsl::Ray a = glsl::mapTexelRay(fitted.map, 0, {0.5f, 0.5f});
       const glsl::Ray b = glsl::mapTexelRay(fitted.map, 0, {0.5f, 0.5f + 1.0f / 256.0f});
       const float reach = fitted.zFar - fitted.zNear;
       const double texel = static_cast<double>(glm::length((a.origin + a.dir * reach) - (b.origin + b.dir * reach)));
       // A step along the floor moves the window's two sides by at most that in each axis: at most one
       // crossing each.
-      const size_t snapped = distinctImages(seen, map, {.fit = fit}, texel);
-      EXPECT_LE(snapped, 3u) << map.name() << " " << windowFitName(fit);
+      const size_t snapped = distinctImages(seen, map, {kWindowFit(fit)}, texel);
+      EXPECT_LE(snapped, 3u) << map.name() << " " << kWindowFit.text(fit);
       if (fit != WindowFit::None) {  // the whole scene does not move with the camera
-        EXPECT_EQ(distinctImages(seen, map, {.fit = fit, .snap = false}, texel), 8u)
-            << map.name() << " " << windowFitName(fit);
+        EXPECT_EQ(distinctImages(seen, map, {kWindowFit(fit), kSnap(false)}, texel), 8u)
+            << map.name() << " " << kWindowFit.text(fit);
       }
     }
   }
@@ -82,13 +82,13 @@ TEST_F(SnappingTest, ASpotsMapIsTheSameWithinATexel) {
 
 TEST_F(SnappingTest, EveryCascadeIsTheSameWithinATexel) {
   const SeenScene seen = test::see(test::longFloor(), test::alongTheFloor(), test::sun(50.0, 60.0), 64);
-  const FittedMap fitted = seen.fit(directionalParameterization(), {.cascades = 3});
+  const FittedMap fitted = seen.fit(directionalParameterization(), {kCascades(3)});
   const glsl::Ray a = glsl::mapTexelRay(fitted.map, 0, {0.5f, 0.5f});
   const glsl::Ray b = glsl::mapTexelRay(fitted.map, 0, {0.5f, 0.5f + 1.0f / 256.0f});
   // The finest layer's texel; each layer crosses at most once in each axis within it.
   const auto texel = static_cast<double>(glm::length(a.origin - b.origin));
-  EXPECT_LE(distinctImages(seen, directionalParameterization(), {.cascades = 3}, 0.5 * texel), 4u);
-  EXPECT_EQ(distinctImages(seen, directionalParameterization(), {.snap = false, .cascades = 3}, 0.5 * texel), 8u);
+  EXPECT_LE(distinctImages(seen, directionalParameterization(), {kCascades(3)}, 0.5 * texel), 4u);
+  EXPECT_EQ(distinctImages(seen, directionalParameterization(), {kSnap(false), kCascades(3)}, 0.5 * texel), 8u);
 }
 
 }  // namespace

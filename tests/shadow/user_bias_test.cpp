@@ -10,8 +10,9 @@ namespace gnomon {
 namespace {
 
 constexpr const char* kConstant = R"(
+//! knob: offset metres 0 10 0.001
 GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  return litWithOffset(map, receiver, tap, params.userKnob);
+  return litWithOffset(map, receiver, tap, params.knobs[kUserOffset]);
 }
 )";
 
@@ -32,7 +33,7 @@ class UserBiasTest : public gpu::GpuTest {
   }
 
   std::vector<float> visibility(const test::Rendered& r, const BiasMethod& method, const glsl::BiasParams& params) {
-    const auto image = test::draw(device(), r, method.content, CullMode::Solids);
+    const auto image = test::draw(device(), r, method.channels, CullMode::Solids);
     VisibilityPass pass(device(), r.view.width, r.view.height);
     pass.setUniforms(shadeUniforms(r.view, r.light, params));
     gpu::Commands commands(device(), "visibility");
@@ -46,26 +47,47 @@ class UserBiasTest : public gpu::GpuTest {
 };
 
 TEST_F(UserBiasTest, SaysWhatItIs) {
-  const auto bias = load(std::string("//! name: my-own\n//! sentence: It tries.\n//! layers: 2\n") +
-                         "//! knob: reach texels 0 8 1.5\n" + kConstant);
-  EXPECT_STREQ(bias->method.name, "my-own");
-  EXPECT_STREQ(bias->method.sentence, "It tries.");
-  EXPECT_EQ(bias->method.content, MapContent::TwoLayers);
-  ASSERT_EQ(bias->method.knobs.size(), 1u);
-  EXPECT_STREQ(bias->method.knobs[0].name, "reach");
-  EXPECT_EQ(bias->method.knobs[0].unit, Unit::Texels);
-  EXPECT_EQ(bias->method.knobs[0].upper, 8.0f);
-  EXPECT_EQ(bias->method.knobs[0].defaultValue, 1.5f);
-  EXPECT_FALSE(bias->method.knobs[0].defaultOfSceneScale);
-  EXPECT_STREQ(load(kConstant, "other.glsl")->method.name, "other");
+  const auto bias = load(
+      "//! name: my-own\n//! sentence: It tries.\n//! channels: second-depth, back-depth\n"
+      "//! knob: reach texels 0 8 1.5\n//! knob: max-offset metres 0 10 0.25 scene\n");
+  const BiasMethod& method = bias->method;
+  EXPECT_STREQ(method.name, "my-own");
+  EXPECT_STREQ(method.sentence, "It tries.");
+  // With what the second depth needs.
+  EXPECT_EQ(method.channels, glsl::kChannelDepth | glsl::kChannelSecondDepth | glsl::kChannelBackDepth);
+  ASSERT_EQ(method.knobs.size(), 2u);
+  EXPECT_STREQ(method.knobs[0].name, "reach");
+  EXPECT_EQ(method.knobs[0].unit, Unit::Texels);
+  EXPECT_EQ(method.knobs[0].upper, 8.0f);
+  EXPECT_EQ(method.knobs[0].defaultValue, 1.5f);
+  EXPECT_FALSE(method.knobs[0].defaultOfSceneScale);
+  EXPECT_STREQ(method.knobs[1].name, "max-offset");
+  const glsl::BiasParams params = defaultBiasParams(method, 8.0f);
+  EXPECT_EQ(params.knobs[0], 1.5f);
+  EXPECT_EQ(params.knobs[1], 2.0f);
+  EXPECT_EQ(knobConstant("max-offset"), "kUserMaxOffset");
+  const auto other = load("", "other.glsl");
+  EXPECT_STREQ(other->method.name, "other");
+  EXPECT_EQ(other->method.channels, glsl::kChannelDepth);
 }
 
 TEST_F(UserBiasTest, MistakesNameFileAndLine) {
   expectMistake("\n//! nmae: x\n", "mine.glsl:2: ");
-  expectMistake("//! layers: 3\n", "write 1, 2 or back");
+  expectMistake("\n//! layers: 2\n",
+                "mine.glsl:2: a bias asks for channels, no longer for layers; for 1 write nothing");
+  expectMistake("//! channels: depth, ids\n",
+                "mine.glsl:1: 'depth, ids' is no list of channels; choose from depth, second-depth, back-depth");
+  expectMistake("//! channels:\n", "'' is no list of channels");
   expectMistake("//! knob: a feet 0 1 0.5\n", "'feet' is no unit");
   expectMistake("//! knob: a metres 1 0 0.5\n", "mine.glsl:1: the knob is not understood");
   expectMistake("//! knob: a metres 0 1\n", "the knob is not understood");
+  expectMistake("//! knob: 2a metres 0 1 0.5\n", "'2a' cannot name a knob");
+  expectMistake("//! knob: a=b metres 0 1 0.5\n", "'a=b' cannot name a knob");
+  expectMistake("//! knob: a-b one 0 1 0\n//! knob: a_b one 0 1 0\n", "mine.glsl:2: two knobs are named 'a_b'");
+  const std::string four =
+      "//! knob: a one 0 1 0\n//! knob: b one 0 1 0\n//! knob: c one 0 1 0\n//! knob: d one 0 1 0\n";
+  EXPECT_EQ(load(four)->method.knobs.size(), 4u);
+  expectMistake(four + "//! knob: e one 0 1 0\n", "mine.glsl:5: 'e' is one knob too many; a bias has at most 4");
   expectMistake("//! name: constant\n", "built-in bias");
   expectMistake("//! name: ../x\n", "cannot name files");
   EXPECT_THROW(loadUserBias(folder_.path() / "absent.glsl"), WorldError);
@@ -73,10 +95,32 @@ TEST_F(UserBiasTest, MistakesNameFileAndLine) {
 
 TEST_F(UserBiasTest, ItIsWhatRuns) {
   const test::Rendered r = test::render(device(), "contact", spotParameterization(), 128, 64, CullMode::Solids);
-  glsl::BiasParams params = defaultBiasParams(r.fitted.map.sceneScale);
+  const auto mine = load(kConstant);
   for (const float offset : {0.0f, 0.02f, 0.3f}) {
-    params.constantOffset = params.userKnob = offset;
-    EXPECT_EQ(visibility(r, load(kConstant)->method, params), visibility(r, findBias("constant"), params)) << offset;
+    glsl::BiasParams params = {};
+    params.knobs[0] = offset;
+    EXPECT_EQ(visibility(r, mine->method, params), visibility(r, findBias("constant"), params)) << offset;
+  }
+}
+
+// Each channel is what the built-in methods make of it, and each knob is found by its name.
+TEST_F(UserBiasTest, ReadsTheChannelsAndTheKnobsThatItNames) {
+  const test::Rendered r = test::render(device(), "sheets", spotParameterization(), 128, 64, CullMode::Solids);
+  const auto mine = load(R"(
+//! channels: depth, second-depth, back-depth
+//! knob: which one 0 1 0
+//! knob: offset metres 0 10 0.001
+GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
+  float offset = params.knobs[kUserOffset];
+  if (params.knobs[kUserWhich] == 0.0f) return litWithOffset(map, receiver, tap, min(halfLayerGap(map, tap), offset));
+  return litBehind(map, receiver, tap, tap.zBack, offset);
+}
+)");
+  for (const auto& [which, name] : {std::pair(0.0f, "dual"), {1.0f, "second-depth"}}) {
+    glsl::BiasParams builtIn = defaultBiasParams(findBias(name), r.fitted.map.sceneScale), params = {};
+    params.knobs[0] = which;
+    params.knobs[1] = builtIn.knobs[0];
+    EXPECT_EQ(visibility(r, mine->method, params), visibility(r, findBias(name), builtIn)) << name;
   }
 }
 
@@ -119,11 +163,11 @@ TEST_F(UserBiasTest, WhatDoesNotCompileNamesFileAndLine) {
 
 TEST_F(UserBiasTest, TheSampleKeepsPlanesClean) {
   const auto sample = loadUserBias(std::filesystem::path(GNOMON_TEST_DIR) / "../../samples/my_bias.glsl");
-  const test::Rendered r = test::render(device(), "slope", spotParameterization(), 256, 256, CullMode::Solids);
-  glsl::BiasParams params = defaultBiasParams(r.fitted.map.sceneScale);
-  params.userKnob = sample->method.knobs.front().defaultValue;
-  const std::vector<float> seen = visibility(r, sample->method, params);
-  const std::vector<float> adaptive = visibility(r, findBias("adaptive"), params);
+  const test::Rendered r = test::render(device(), "tilted-planes", spotParameterization(), 256, 256, CullMode::Solids);
+  const auto seenBy = [&](const BiasMethod& method) {
+    return visibility(r, method, defaultBiasParams(method, r.fitted.map.sceneScale));
+  };
+  const std::vector<float> seen = seenBy(sample->method), adaptive = seenBy(findBias("adaptive"));
   size_t different = 0;
   for (size_t i = 0; i < seen.size(); ++i) different += seen[i] != adaptive[i] ? 1 : 0;
   EXPECT_LT(different, seen.size() / 1000);

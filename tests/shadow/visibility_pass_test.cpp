@@ -15,7 +15,7 @@ class VisibilityPassTest : public gpu::GpuTest {};
 
 TEST_F(VisibilityPassTest, OnSlopeNoneHasPlentyOfAcneAndAdaptiveNone) {
   for (const Parameterization* map : planarParameterizations()) {
-    LitMap slope(device(), "slope", *map, 512, {.side = 512});
+    LitMap slope(device(), "tilted-planes", *map, 512, {.side = 512});
     const LabelledResult none = slope.judge("none");
     EXPECT_GT(none.labels.count(Label::Acne), slope.lit.receivers().scored / 5) << map->name();
     const LabelledResult adaptive = slope.judge("adaptive");

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <random>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -142,8 +141,6 @@ TEST(SurfacePoint, InFloatStaysWithinUlpsOfThePlane) {
   // ray's error over the cosine of at least 0.05, and triangles as thin as chance makes them.
   EXPECT_LT(offPlane, 2.0e-6);
   EXPECT_LT(aside, 1e-2);
-  RecordProperty("off_plane_metres", fmt::format("{}", offPlane));
-  RecordProperty("aside_metres", fmt::format("{}", aside));
 }
 
 }  // namespace

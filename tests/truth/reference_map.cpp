@@ -43,10 +43,8 @@ Verdict ReferenceMap::verdict(const SurfaceSample& sample, int method, const gls
   const glsl::Receiver receiver{glm::vec3(sample.positionW - frameOriginW), glm::vec3(sample.normalW)};
   const glsl::MapPoint point = glsl::mapProject(map, receiver.posL);
   if (!point.covered) return Verdict::Uncovered;
-  glsl::Tap tap;
-  tap.layer = 0;
-  tap.texel = glsl::mapTexel(map, point.uv);
-  tap.ray = glsl::mapTexelRay(map, 0, glsl::mapTexelCenter(map, tap.texel));
+  const glm::ivec2 texel = glsl::mapTexel(map, point.uv);
+  glsl::Tap tap = glsl::emptyTap(0, texel, glsl::mapTexelRay(map, 0, glsl::mapTexelCenter(map, texel)));
   tap.z1 = depths[static_cast<size_t>(tap.texel.y * map.side + tap.texel.x)];
   bool known = false;
   return glsl::biasLit(method, map, params, receiver, tap, known) ? Verdict::Lit : Verdict::Shadow;
@@ -86,12 +84,12 @@ std::vector<Verdict> predict(const ReferenceMap& map, const Receivers& receivers
   return verdicts;
 }
 
-glsl::BiasParams defaultBias() {
-  return {.constantOffset = 0.05f,
-          .slopeFactor = 1.0f,
-          .slopeOffset = 0.0f,
-          .adaptiveK = 1e-4f,
-          .epsilonAt = glsl::kEpsilonAtOccluder};
+glsl::BiasParams defaultBias(int method) {
+  glsl::BiasParams params{.epsilonAt = glsl::kEpsilonAtOccluder};
+  if (method == glsl::kBiasConstant) params.knobs[glsl::kConstantOffset] = 0.05f;
+  if (method == glsl::kBiasSlope) params.knobs[glsl::kSlopeFactor] = 1.0f;
+  if (method == glsl::kBiasAdaptive) params.knobs[glsl::kAdaptiveK] = 1e-4f;
+  return params;
 }
 
 }  // namespace gnomon::test

@@ -36,6 +36,6 @@ std::vector<Verdict> predict(const ReferenceMap& map, const Receivers& receivers
                              const glsl::BiasParams& params);
 
 // The defaults of the design: K = 1e-4 at the occluder.
-glsl::BiasParams defaultBias();
+glsl::BiasParams defaultBias(int method);
 
 }  // namespace gnomon::test

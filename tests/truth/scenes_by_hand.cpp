@@ -100,7 +100,7 @@ int addMaskMaterial(Scene& scene) {
   texture.height = 2;
   texture.wrapS = glsl::kWrapClamp;
   texture.wrapT = glsl::kWrapClamp;
-  texture.filterMode = glsl::kFilterNearest;
+  texture.filterMode = glsl::kTexFilterNearest;
   scene.texels.insert(scene.texels.end(), {hole, opaque, opaque, opaque});
   scene.textures.push_back(texture);
   Material material;

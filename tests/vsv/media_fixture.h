@@ -5,6 +5,7 @@
 #include "tests/gpu_fixture.h"
 #include "vsv/media/media_pass.h"
 #include "vsv/shadow_volume.h"
+#include "vsv/volume_parameterization.h"
 
 #include <memory>
 #include <optional>

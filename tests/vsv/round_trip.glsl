@@ -39,13 +39,13 @@ GNOMON_FN EpipolarAnswer epipolarAnswer(ShadowMap map, EpipolarQuery query) {
   receiver.posL = query.posL;
   receiver.normalL = query.normalL;
   BiasParams params;
-  params.constantOffset = 0.05f;
-  params.adaptiveK = 1e-4f;
   params.epsilonAt = kEpsilonAtOccluder;
   Ray column = mapTexelRay(map, 0, mapTexelCenter(map, mapTexel(map, point.uv)));
   bool known;
   answer.voxelNone = decidingVoxel(kBiasNone, map, params, receiver, column, known);
+  params.knobs[kConstantOffset] = 0.05f;
   answer.voxelConstant = decidingVoxel(kBiasConstant, map, params, receiver, column, known);
+  params.knobs[kAdaptiveK] = 1e-4f;
   answer.voxelAdaptive = decidingVoxel(kBiasAdaptive, map, params, receiver, column, known);
   return answer;
 }

@@ -27,7 +27,7 @@ TEST_F(SourceCheckTest, TheBitsAreWhatTheSourceImplies) {
         const VolumeWorld world(device(), setup(scene, source, fit));
         const DenseVolume measured = denseOf(downloadBits(device(), world.volume));
         const SourceCheck check = checkSource(device(), world.volume, measured);
-        const std::string what = std::string(scene) + " " + volumeSourceName(source) + " " + volumeFitName(fit);
+        const std::string what = std::string(scene) + " " + kVolumeSource.text(source) + " " + kVolumeFit.text(fit);
         EXPECT_EQ(check.sameMap.voxels, 256u * 256u * 256u);
         EXPECT_EQ(check.sameMap.mismatches, 0u) << what;
         EXPECT_EQ(check.sameOccluders.mismatches, 0u) << what;
@@ -102,11 +102,11 @@ TEST_F(SourceCheckTest, ADirectVolumeIsTheExactOneUpToRoundingAndSilhouettes) {
     const ColumnBoundaries measured = boundariesOf(denseOf(downloadBits(device(), world.volume))).boundaries;
     const BoundaryErrors errors =
         compareBoundaries(world.seen.tracer(), columns.frame, exact, measured, columnSource(world.volume), 1e-5);
-    EXPECT_GT(errors.histogram[0], errors.columns * 99 / 100) << volumeFitName(fit);
+    EXPECT_GT(errors.histogram[0], errors.columns * 99 / 100) << kVolumeFit.text(fit);
     uint64_t unexplained = 0;
     const BoundaryHistogram& resolution = errors.byCause[static_cast<size_t>(BoundaryCause::Resolution)];
     for (const uint64_t count : resolution) unexplained += count;
-    EXPECT_LT(unexplained, errors.columns / 10000) << volumeFitName(fit);
+    EXPECT_LT(unexplained, errors.columns / 10000) << kVolumeFit.text(fit);
   }
 }
 

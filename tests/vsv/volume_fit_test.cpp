@@ -1,5 +1,6 @@
 // fitVolume: what the camera sees is covered, and little more, wherever the light is.
 #include "base/error.h"
+#include "vsv/volume_parameterization.h"
 #include "vsv_fixture.h"
 
 #include "shared/volume_lookup.glsl"
@@ -139,10 +140,10 @@ TEST(VolumeFitTest, ALightAtTheEyeIsRefusedByName) {
 }
 
 TEST(VolumeFitTest, SizesOnTheCommandLine) {
-  EXPECT_EQ(parseVolumeSize("512x1024x256"), (VolumeSize{.alpha = 512, .theta = 1024, .phi = 256}));
+  EXPECT_EQ(kVolumeSize.parse("512x1024x256"), (VolumeSize{.alpha = 512, .theta = 1024, .phi = 256}));
   for (const char* wrong :
        {"", "512", "512x512", "512x512x100", "0x512x128", "512x512x128x", "512 x512x128", "-5x5x128", "99999x2x128"})
-    EXPECT_THROW(parseVolumeSize(wrong), UsageError) << wrong;
+    EXPECT_THROW(kVolumeSize.parse(wrong), UsageError) << wrong;
 }
 
 }  // namespace

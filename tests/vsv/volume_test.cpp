@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include <fmt/format.h>
 
@@ -75,39 +74,9 @@ TEST_F(VolumeTest, TheScanIsTheSerialOneWhateverTheWay) {
   }
 }
 
-double medianOf(std::vector<double> values) {
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
-  return values[values.size() / 2];
-}
-
-// At the default size, with what each way costs beside a copy of as many bytes, all interleaved.
 TEST_F(VolumeTest, BothWaysAgreeAtTheDefaultSize) {
   VolumeWorld w(device(), {.scene = "atrium", .size = {}});
-  const ShadowVolume& volume = w.volume;
-  const gpu::Buffer& bits = *volume.bits();
-  const gpu::Buffer copied(device(), {.name = "copy", .size = bits.size()});
-  const gpu::ComputePrograms programs(device());
-  std::vector<double> copy, fused, passes;
-  const auto time = [&](const std::function<void(gpu::Commands&)>& recorded) {
-    gpu::Commands commands(device(), "timed");
-    recorded(commands);
-    return commands.submitAndWait().wallMs;
-  };
-  std::vector<glm::uvec4> byPasses;
-  for (int round = 0; round < 9; ++round) {
-    copy.push_back(time([&](auto& c) { c.copy(bits, copied, copied.size()); }));
-    passes.push_back(time([&](auto& c) { volume.recordBits(c, programs, Voxelization::Passes); }));
-    if (round == 0) byPasses = downloadBits(device(), volume).texels();
-    fused.push_back(time([&](auto& c) { volume.recordBits(c, programs, Voxelization::Fused); }));
-  }
-  EXPECT_EQ(downloadBits(device(), volume).texels(), byPasses);
-  const auto ratio = [&](std::vector<double> times) {  // of each round, since the machine's speed changes
-    for (size_t i = 0; i < times.size(); ++i) times[i] /= copy[i];
-    return medianOf(times);
-  };
-  std::printf("%g MiB: copy %.2f ms, fused %.2f ms (%.2f copies), passes %.2f ms (%.2f copies)\n",
-              static_cast<double>(copied.size()) / (1 << 20), medianOf(copy), medianOf(fused), ratio(fused),
-              medianOf(passes), ratio(passes));
+  EXPECT_EQ(bitsBy(w.volume, Voxelization::Fused), bitsBy(w.volume, Voxelization::Passes));
 }
 
 TEST_F(VolumeTest, BitsOfASceneObeyTheRuleAndNeverFallAlongAlpha) {
@@ -131,7 +100,7 @@ TEST_F(VolumeTest, BitsOfASceneObeyTheRuleAndNeverFallAlongAlpha) {
 // The occluder of a column is the first hit of its own ray; at an edge of what is seen it may be the other
 // side's.
 TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
-  for (const char* scene : {"atrium", "slope", "sheets"}) {
+  for (const char* scene : {"atrium", "tilted-planes", "sheets"}) {
     for (const VolumeFit fit : {VolumeFit::Frustum, VolumeFit::Full}) {
       VolumeWorld w(device(), {.scene = scene, .size = {.alpha = 64, .theta = 250, .phi = 128}, .fit = fit});
       const auto occluders = gpu::downloadAs<float>(device(), w.volume.occluders());
@@ -140,7 +109,6 @@ TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
       const glm::dmat3 worldFromLight(glm::dvec3(columns.frame.rightW), glm::dvec3(columns.frame.upW),
                                       glm::dvec3(columns.frame.backW));
       size_t off = 0, covered = 0;
-      double worst = 0.0;
       for (int y = 0; y < map.rows; ++y) {
         for (int x = 0; x < map.side; ++x) {
           const glsl::Ray ray = glsl::mapTexelRay(map, 0, glsl::mapTexelCenter(map, {x, y}));
@@ -157,14 +125,11 @@ TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
           const double error = std::abs(std::min(stored, upper) - std::min(exact, upper));
           if (error <= 8e-6 * (1.0 + 1.0 / slant)) continue;
           ++off;
-          worst = std::max(worst, error);
         }
       }
       const auto all = static_cast<size_t>(map.side * map.rows);
-      std::printf("%s, %s: %zu of %zu columns off (at edges), %zu covered, worst %g rad\n", scene, volumeFitName(fit),
-                  off, all, covered, worst);
       EXPECT_LT(off, 2 + all / 2000);
-      EXPECT_GT(covered, all / 200);  // `slope` is a patch of the whole sphere
+      EXPECT_GT(covered, all / 200);  // `tilted-planes` is a patch of the whole sphere
     }
   }
 }
@@ -188,7 +153,7 @@ std::vector<Place> places() {
 TEST_F(VolumeTest, OnSlopeAdaptiveHasNoAcneWhereverTheLight) {
   for (const Place& place : places()) {
     for (const VolumeFit fit : {VolumeFit::Frustum, VolumeFit::Full}) {
-      VolumeWorld w(device(), {.scene = "slope", .lightW = place.lightW, .fit = fit});
+      VolumeWorld w(device(), {.scene = "tilted-planes", .lightW = place.lightW, .fit = fit});
       size_t acne[2] = {0, 0};
       for (const bool adaptive : {false, true}) {
         const LabelledResult score = w.judge(adaptive ? "adaptive" : "none");
@@ -198,34 +163,33 @@ TEST_F(VolumeTest, OnSlopeAdaptiveHasNoAcneWhereverTheLight) {
         EXPECT_EQ(sum, w.lit.receivers().scored);
         EXPECT_EQ(score.labels.count(Label::Uncovered), 0u);
       }
-      std::printf("%s, %s: scored %zu, acne none %zu, adaptive %zu\n", place.where, volumeFitName(fit),
-                  w.lit.receivers().scored, acne[0], acne[1]);
       EXPECT_GT(w.lit.receivers().scored, 2000u);
       EXPECT_GT(acne[0], w.lit.receivers().scored / 20) << place.where;
-      EXPECT_EQ(acne[1], 0u) << place.where << ", " << volumeFitName(fit);
+      EXPECT_EQ(acne[1], 0u) << place.where << ", " << kVolumeFit.text(fit);
     }
   }
 }
 
-// A cube's texels have rays of their own, so that some acne returns: said here, and bounded.
+// A cube's texels have rays of their own, so that some acne returns, as much less as its texels are finer.
 TEST_F(VolumeTest, ResampledColumnsBringSomeAcneBack) {
+  std::vector<double> shares;  // of the acne without a bias
   for (const int cubeSide : {256, 1024}) {
     VolumeWorld w(device(), {.source = VolumeSource::Resample, .cubeSide = cubeSide});
     const size_t none = w.judge("none").labels.count(Label::Acne);
     const size_t adaptive = w.judge("adaptive").labels.count(Label::Acne);
-    std::printf("resampled from a cube of %d: acne none %.2f%%, adaptive %.2f%%\n", cubeSide,
-                100.0 * static_cast<double>(none) / static_cast<double>(w.lit.receivers().scored),
-                100.0 * static_cast<double>(adaptive) / static_cast<double>(w.lit.receivers().scored));
-    EXPECT_GT(adaptive, 0u);
-    EXPECT_LT(adaptive, none);
+    EXPECT_GT(none, w.lit.receivers().scored / 3);
+    shares.push_back(static_cast<double>(adaptive) / static_cast<double>(none));
   }
+  // Measured on this scene: 0.71 and 0.40.
+  EXPECT_NEAR(shares[0], 0.7, 0.1);
+  EXPECT_NEAR(shares[1], 0.4, 0.1);
 }
 
 TEST_F(VolumeTest, GoldenPictures) {
   for (const VolumeSource source : {VolumeSource::Direct, VolumeSource::Resample}) {
     VolumeWorld w(device(), {.scene = "contact", .size = {.alpha = 256, .theta = 256, .phi = 128}, .source = source});
     for (const char* bias : {"none", "constant", "adaptive"})
-      test::compareWithGolden(fmt::format("contact_vsv_{}_{}", volumeSourceName(source), bias),
+      test::compareWithGolden(fmt::format("contact_vsv_{}_{}", kVolumeSource.text(source), bias),
                               w.judge(bias).visibility, 256, isLavapipe());
   }
 }
@@ -245,7 +209,7 @@ TEST_F(VolumeTest, AVolumeTooLargeIsRefusedWithASizeThatFits) {
     const size_t before = message.find("MiB; ");
     ASSERT_NE(before, std::string::npos) << message;
     const std::string fits = message.substr(before + 5, message.find(" would fit") - before - 5);
-    tryTo(parseVolumeSize(fits));
+    tryTo(kVolumeSize.parse(fits));
   }
 }
 

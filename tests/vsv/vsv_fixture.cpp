@@ -23,7 +23,7 @@ VolumeWorld::VolumeWorld(const gpu::Device& device, const VolumeSetup& setup)
       passes(seen),
       lit(seen, passes, volumeParameterization(), lightOf(seen.scene(), setup),
           {.side = setup.cubeSide,
-           .options = {.volumeSize = setup.size, .volumeSource = setup.source, .volumeFit = setup.fit},
+           .options = {kVolumeSize(setup.size), kVolumeSource(setup.source), kVolumeFit(setup.fit)},
            .cull = CullMode::None}),
       volume(asVolume(lit.occluders())) {}
 

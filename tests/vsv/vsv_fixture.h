@@ -10,7 +10,7 @@
 namespace gnomon::test {
 
 struct VolumeSetup {
-  const char* scene = "slope";
+  const char* scene = "tilted-planes";
   std::optional<glm::dvec3> lightW;  // absent: the scene's first light
   std::optional<Camera> camera;      // absent: the scene's first
   VolumeSize size = {.alpha = 512, .theta = 512, .phi = 256};

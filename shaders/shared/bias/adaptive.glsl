@@ -17,13 +17,15 @@
 
 GNOMON_SHARED_BEGIN
 
+const int kAdaptiveK = 0;  // of the scene's scale; the three methods share it
+
 GNOMON_FN float adaptiveEpsilon(ShadowMap map, BiasParams params, Receiver receiver, Tap tap, vec3 occluderL) {
   vec3 atL = occluderL;
   if (params.epsilonAt == kEpsilonAtFragment) atL = receiver.posL;
   if (params.epsilonAt == kEpsilonAtStored) {
     atL = tap.ray.origin + tap.ray.dir * mapDistance(map, tap.layer, tap.ray, tap.z1);
   }
-  return mapDepthSlope(map, tap.layer, atL, tap.ray.dir) * map.sceneScale * params.adaptiveK;
+  return mapDepthSlope(map, tap.layer, atL, tap.ray.dir) * map.sceneScale * params.knobs[kAdaptiveK];
 }
 
 GNOMON_FN bool adaptiveLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {

@@ -7,11 +7,18 @@
 
 GNOMON_SHARED_BEGIN
 
-// lit  <=>  the receiver, at its depth on the texel's ray, lies within `offset` metres behind what the texel stores.
-GNOMON_FN bool litWithOffset(ShadowMap map, Receiver receiver, Tap tap, float offset) {
+const int kConstantOffset = 0;  // metres
+
+// lit  <=>  the receiver, at its depth on the texel's ray, lies within `offset` metres behind a depth that the texel stores.
+GNOMON_FN bool litBehind(ShadowMap map, Receiver receiver, Tap tap, float stored, float offset) {
   float depth = mapDepth(map, tap.layer, receiver.posL);
   float distance_ = mapDistance(map, tap.layer, tap.ray, depth);
-  return distance_ <= mapDistance(map, tap.layer, tap.ray, tap.z1) + offset;
+  return distance_ <= mapDistance(map, tap.layer, tap.ray, stored) + offset;
+}
+
+// Behind the nearest depth.
+GNOMON_FN bool litWithOffset(ShadowMap map, Receiver receiver, Tap tap, float offset) {
+  return litBehind(map, receiver, tap, tap.z1, offset);
 }
 
 // The depth of a point `offset` metres nearer the light. A point that would pass the near end stays there.
@@ -21,7 +28,7 @@ GNOMON_FN float depthTowardsLight(ShadowMap map, int layer, vec3 posL, Ray ray, 
 }
 
 GNOMON_FN bool constantLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  return litWithOffset(map, receiver, tap, params.constantOffset);
+  return litWithOffset(map, receiver, tap, params.knobs[kConstantOffset]);
 }
 
 GNOMON_SHARED_END

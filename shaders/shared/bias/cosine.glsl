@@ -9,9 +9,11 @@
 
 GNOMON_SHARED_BEGIN
 
+const int kCosineOffset = 0;  // metres
+
 GNOMON_FN bool cosineLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
   float facing = clamp(-dot(receiver.normalL, tap.ray.dir), 0.0f, 1.0f);
-  return litWithOffset(map, receiver, tap, params.cosineOffset * (1.0f - facing));
+  return litWithOffset(map, receiver, tap, params.knobs[kCosineOffset] * (1.0f - facing));
 }
 
 GNOMON_SHARED_END

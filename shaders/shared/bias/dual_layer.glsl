@@ -13,6 +13,8 @@
 
 GNOMON_SHARED_BEGIN
 
+const int kDualOffset = 0;  // metres; midpoint has no knob
+
 GNOMON_FN float halfLayerGap(ShadowMap map, Tap tap) {
   float first = mapDistance(map, tap.layer, tap.ray, tap.z1);
   return 0.5f * (mapDistance(map, tap.layer, tap.ray, tap.z2) - first);
@@ -23,7 +25,7 @@ GNOMON_FN bool midpointLit(ShadowMap map, Receiver receiver, Tap tap) {
 }
 
 GNOMON_FN bool dualLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  return litWithOffset(map, receiver, tap, min(halfLayerGap(map, tap), params.dualOffset));
+  return litWithOffset(map, receiver, tap, min(halfLayerGap(map, tap), params.knobs[kDualOffset]));
 }
 
 GNOMON_SHARED_END

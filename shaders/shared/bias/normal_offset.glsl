@@ -9,6 +9,8 @@
 
 GNOMON_SHARED_BEGIN
 
+const int kNormalOffsetTexels = 0;
+
 // Where the receiver is looked up. One that is, or would come to lie, outside the map stays where it is.
 GNOMON_FN Receiver normalOffsetReceiver(ShadowMap map, BiasParams params, Receiver receiver) {
   MapPoint point = mapProject(map, receiver.posL);
@@ -21,7 +23,7 @@ GNOMON_FN Receiver normalOffsetReceiver(ShadowMap map, BiasParams params, Receiv
   float facing = clamp(-dot(receiver.normalL, ray.dir), 0.0f, 1.0f);
   float sine = sqrt(max(1.0f - facing * facing, 0.0f));
   Receiver moved = receiver;
-  moved.posL = receiver.posL + receiver.normalL * (params.normalOffsetTexels * texel * sine);
+  moved.posL = receiver.posL + receiver.normalL * (params.knobs[kNormalOffsetTexels] * texel * sine);
   if (!mapProject(map, moved.posL).covered) return receiver;
   return moved;
 }

@@ -10,8 +10,10 @@
 
 GNOMON_SHARED_BEGIN
 
+const int kReceiverPlaneOffset = 0;  // metres
+
 GNOMON_FN bool receiverPlaneLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  float depth = depthTowardsLight(map, tap.layer, receiver.posL, tap.ray, params.receiverPlaneOffset);
+  float depth = depthTowardsLight(map, tap.layer, receiver.posL, tap.ray, params.knobs[kReceiverPlaneOffset]);
   MapPoint point = mapProject(map, receiver.posL);
   if (point.layer != tap.layer) return depth <= tap.z1;  // a tap across an edge of the map: no gradient leads there
   vec2 uv = point.uv;

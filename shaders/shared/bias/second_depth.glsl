@@ -8,9 +8,11 @@
 
 GNOMON_SHARED_BEGIN
 
+const int kSecondDepthOffset = 0;  // metres
+
 // Sheets need an offset still.
 GNOMON_FN bool secondDepthLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  return litWithOffset(map, receiver, tap, params.secondDepthOffset);
+  return litBehind(map, receiver, tap, tap.zBack, params.knobs[kSecondDepthOffset]);
 }
 
 GNOMON_SHARED_END

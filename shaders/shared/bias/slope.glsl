@@ -11,6 +11,9 @@
 
 GNOMON_SHARED_BEGIN
 
+const int kSlopeFactor = 0;
+const int kSlopeOffset = 1;  // metres
+
 // By how much the receiver's plane changes depth from the texel's centre to uv. A plane that the ray through uv does not meet
 // (grazing) changes by the whole range.
 GNOMON_FN float planeDepthChange(ShadowMap map, int layer, Receiver receiver, float centerDepth, vec2 uv) {
@@ -26,8 +29,8 @@ GNOMON_FN bool slopeLit(ShadowMap map, BiasParams params, Receiver receiver, Tap
   vec2 halfTexel = vec2(0.5f / float(map.side), 0.5f / float(map.rows));
   float change = max(planeDepthChange(map, tap.layer, receiver, center, vec2(uv.x + halfTexel.x, uv.y)),
                      planeDepthChange(map, tap.layer, receiver, center, vec2(uv.x, uv.y + halfTexel.y)));
-  float depth = depthTowardsLight(map, tap.layer, receiver.posL, tap.ray, params.slopeOffset);
-  return depth - params.slopeFactor * change <= tap.z1;
+  float depth = depthTowardsLight(map, tap.layer, receiver.posL, tap.ray, params.knobs[kSlopeOffset]);
+  return depth - params.knobs[kSlopeFactor] * change <= tap.z1;
 }
 
 GNOMON_SHARED_END

@@ -113,10 +113,8 @@ double runOnce(std::vector<std::string> words, std::vector<std::string> environm
 StartTimes measureStart(const std::filesystem::path& program, const SetupOptions& setup) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string();
-  std::vector<std::string> words = {program.string(),        "render", setup.scene, "-o",
-                                    folder + "/picture.png", "--size", setup.size,  "--quiet"};
-  for (const auto& [flag, value] : {std::pair{"--light", setup.light}, std::pair{"--camera", setup.camera}})
-    if (!value.empty()) words.insert(words.end(), {flag, value});
+  std::vector<std::string> words = {program.string(), "render", "-o", folder + "/picture.png", "--quiet"};
+  for (const std::string& word : setupWords(setup)) words.push_back(word);
   const std::vector<std::string> environment =
       environmentWith({{"GNOMON_CACHE_DIR", folder + "/shaders"}, {"MESA_SHADER_CACHE_DIR", folder + "/driver"}});
   StartTimes times;

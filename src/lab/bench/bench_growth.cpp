@@ -45,6 +45,8 @@ class Curves {
   int repeats_;
 };
 
+constexpr ChannelSet kTwoLayers = glsl::kChannelDepth | glsl::kChannelSecondDepth;
+
 // A light on a map whose stages are timed.
 class Subject {
  public:
@@ -52,7 +54,7 @@ class Subject {
       : passes_(session),
         lit_(openLight(session, passes_, kind, {.side = side, .options = options.mapOptions, .cull = options.cull})) {}
 
-  double build(MapContent content) { return lit_.redraw(content); }
+  double build(ChannelSet channels) { return lit_.redraw(channels); }
   double look(const char* bias) { return lit_.timeVisibility(atDefaults(findBias(bias), lit_.view())); }
   double bits() {
     gpu::Commands commands(lit_.view().device(), "bits");
@@ -78,8 +80,8 @@ Growth withTriangles(const gpu::DeviceOptions& device, const BenchOptions& optio
     Subject cube(session, cubeParameterization(), 512, options);
     curves.addPoint(static_cast<double>(triangleCount(session.scene())), fmt::format("{}", count),
                     {{"gbuffer", [&] { return session.timeGBuffer(); }},
-                     {"cube, one layer", [&] { return cube.build(MapContent::OneLayer); }},
-                     {"cube, two layers", [&] { return cube.build(MapContent::TwoLayers); }},
+                     {"cube, one layer", [&] { return cube.build(glsl::kChannelDepth); }},
+                     {"cube, two layers", [&] { return cube.build(kTwoLayers); }},
                      {"visibility, constant", [&] { return cube.look("constant"); }},
                      {"exact shadow", [&] { return cube.trace(); }}});
   }
@@ -94,9 +96,9 @@ Growth withMapSize(const Session& session, const BenchOptions& options) {
     Subject cube(session, cubeParameterization(), static_cast<int>(side), options);
     Subject paraboloid(session, paraboloidParameterization(), paraboloidSide, options);
     curves.addPoint(static_cast<double>(texels), fmt::format("{}", texels),
-                    {{"cube, one layer", [&] { return cube.build(MapContent::OneLayer); }},
-                     {"cube, two layers", [&] { return cube.build(MapContent::TwoLayers); }},
-                     {"paraboloid, one layer", [&] { return paraboloid.build(MapContent::OneLayer); }},
+                    {{"cube, one layer", [&] { return cube.build(glsl::kChannelDepth); }},
+                     {"cube, two layers", [&] { return cube.build(kTwoLayers); }},
+                     {"paraboloid, one layer", [&] { return paraboloid.build(glsl::kChannelDepth); }},
                      {"visibility, cube, constant", [&] { return cube.look("constant"); }},
                      {"visibility, cube, adaptive", [&] { return cube.look("adaptive"); }}});
   }
@@ -125,11 +127,10 @@ Growth withVolumeSize(const Session& session, const BenchOptions& options) {
   for (const VolumeSize& size : {VolumeSize{256, 256, 256}, VolumeSize{512, 512, 256}, VolumeSize{512, 512, 512},
                                  VolumeSize{1024, 1024, 512}, VolumeSize{1024, 1024, 1024}}) {
     BenchOptions sized = options;
-    sized.mapOptions.volumeSize = size;
-    sized.mapOptions.volumeSource = VolumeSource::Direct;
+    sized.mapOptions = options.mapOptions.with(kVolumeSize(size)).with(kVolumeSource(VolumeSource::Direct));
     Subject volume(session, volumeParameterization(), 1024, sized);
     curves.addPoint(static_cast<double>(size.alpha) * size.theta * size.phi, volumeSizeName(size),
-                    {{"volume, all", [&] { return volume.build(MapContent::OneLayer); }},
+                    {{"volume, all", [&] { return volume.build(glsl::kChannelDepth); }},
                      {"volume, bits", [&] { return volume.bits(); }},
                      {"visibility, adaptive", [&] { return volume.look("adaptive"); }}});
   }

@@ -3,7 +3,6 @@
 #include "lab/core/maps.h"
 #include "lab/fog/fog_view.h"
 #include "omni/cube_map.h"
-#include "omni/paraboloid_map.h"
 #include "truth/visibility.h"
 #include "vsv/volume_parameterization.h"
 
@@ -27,6 +26,15 @@ double millisecondsOf(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// All but the cube, against which the others are told, and the volume, which has stages of its own.
+std::vector<const Parameterization*> otherMaps() {
+  std::vector<const Parameterization*> maps = parameterizations();
+  std::erase_if(maps, [](const Parameterization* map) {
+    return map == &cubeParameterization() || map == &volumeParameterization();
+  });
+  return maps;
 }
 
 }  // namespace
@@ -120,26 +128,20 @@ void BenchStages::addLimits() {
 
 void BenchStages::addMaps() {
   const auto build = [&](const std::string& name, const Parameterization& kind, const MapOptions& options,
-                         std::initializer_list<MapContent> contents) {
+                         std::initializer_list<ChannelSet> contents) {
     BenchMap& map = maps_->add(session_, options_, kind, name, options);
-    for (const MapContent content : contents)
+    for (const ChannelSet content : contents)
       add(fmt::format("map/{}/{}", name, contentName(content)), kBaseMap,
           [&map, content] { return map.lit.redraw(content); });
   };
   const MapOptions& given = options_.mapOptions;
-  const auto all = {MapContent::OneLayer, MapContent::TwoLayers, MapContent::BackFaces};
-  build("cube", cubeParameterization(), given, all);
-  MapOptions other = given;
-  other.cubeDepth = CubeDepth::Radial;
-  build("cube, radial", cubeParameterization(), other, {MapContent::OneLayer});
-  build("paraboloid", paraboloidParameterization(), given, all);
-  for (const ParaboloidRaster raster : {ParaboloidRaster::Vertex, ParaboloidRaster::Tessellated}) {
-    other = given;
-    other.paraboloidRaster = raster;
-    build(fmt::format("paraboloid, {}", paraboloidRasterName(raster)), paraboloidParameterization(), other,
-          {MapContent::OneLayer});
-  }
-  for (const Parameterization* planar : parseMaps("spot,directional")) build(planar->name(), *planar, given, all);
+  const auto buildWithVariants = [&](const Parameterization& kind) {
+    build(kind.name(), kind, given, {glsl::kChannelDepth, glsl::kChannelDepth | glsl::kChannelSecondDepth, glsl::kChannelBackDepth});
+    for (const Parameterization::Variant& variant : kind.variants(given))
+      build(fmt::format("{}, {}", kind.name(), variant.name), kind, variant.options, {glsl::kChannelDepth});
+  };
+  buildWithVariants(cubeParameterization());  // the yardstick
+  for (const Parameterization* kind : otherMaps()) buildWithVariants(*kind);
 }
 
 void BenchStages::addGBufferAndTruth() {
@@ -154,7 +156,7 @@ void BenchStages::addVisibility() {
   const auto look = [&](const std::string& mapName, const char* biasName, const Filter& filter) {
     BenchMap& map = maps_->named(mapName);
     const Method method = atDefaults(findBias(biasName), session_);
-    const std::string suffix = filter.id == glsl::kFilterNone ? std::string() : fmt::format(", {}", filter.name);
+    const std::string suffix = filter.id == glsl::kShadowFilterNone ? std::string() : fmt::format(", {}", filter.name);
     add(fmt::format("visibility/{}/{}{}", mapName, biasName, suffix), kBaseVisibility,
         [&map, method, id = filter.id] { return map.lit.timeVisibility(method, id); });
   };
@@ -163,19 +165,18 @@ void BenchStages::addVisibility() {
     if (std::string_view(bias.name) != "constant") look("cube", bias.name, filters().front());
   for (const char* bias : {"constant", "adaptive", "dual"})
     for (size_t i = 1; i < filters().size(); ++i) look("cube", bias, filters()[i]);
-  for (const char* map : {"paraboloid", "spot", "directional"})
-    for (const char* bias : {"constant", "adaptive", "dual"}) look(map, bias, filters().front());
+  for (const Parameterization* map : otherMaps())
+    for (const char* bias : {"constant", "adaptive", "dual"}) look(map->name(), bias, filters().front());
 }
 
 void BenchStages::addVolumes() {
   const gpu::Device& device = session_.device();
   const std::string copy = "volume/copy of its bits";
   for (const VolumeSource source : {VolumeSource::Direct, VolumeSource::Resample}) {
-    MapOptions options = options_.mapOptions;
-    options.volumeSource = source;
-    const std::string name = fmt::format("vsv, {}", volumeSourceName(source));
+    const MapOptions options = options_.mapOptions.with(kVolumeSource(source));
+    const std::string name = fmt::format("vsv, {}", kVolumeSource.text(source));
     BenchMap& map = maps_->add(session_, options_, volumeParameterization(), name, options);
-    add(fmt::format("volume/{}/all", volumeSourceName(source)), kBaseMap, [&map] { return map.lit.redraw(); });
+    add(fmt::format("volume/{}/all", kVolumeSource.text(source)), kBaseMap, [&map] { return map.lit.redraw(); });
     if (source == VolumeSource::Direct) {
       const ShadowVolume& volume = asVolume(map.lit.occluders());
       const gpu::Buffer& bits = *volume.bits();

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "lab/compare/compare_command.h"
 #include "lab/compare/robustness.h"
 #include "lab/compare/row_pictures.h"
 #include "lab/compare/tune.h"
@@ -43,20 +44,23 @@ struct Entry {
   size_t row = 0;  // the first of its rows, one a filter
 };
 
+std::string filterKnobName(const Knob& knob) {
+  return fmt::format("filter_{}", knob.name);
+}
+
 // Knobs, then what the map holds and how it is drawn and fitted.
-Params paramsOf(const Method& method, const FittedMap& fitted, const MapChoice& choice) {
+Params paramsOf(const Method& method, const Filter& filter, const Parameterization& map, const FittedMap& fitted,
+                const CompareOptions& choice) {
   const BiasMethod& bias = *method.bias;
-  const MapOptions& map = choice.mapOptions;
   Params params;
-  for (const BiasKnob& knob : knobsOf(bias)) params.push_back({knob.name, shortest(method.params.*knob.field)});
-  if (bias.hasEpsilon) params.push_back({"epsilon_at", epsilonAtName(method.params.epsilonAt)});
-  params.push_back({"map_content", contentName(bias.content)});
+  for (const Knob& knob : knobsOf(bias)) params.push_back({knob.name, shortest(valueOf(method.params, bias, knob))});
+  const ChosenFilter chosen = filterFor(choice, filter);
+  for (size_t i = 0; i < filter.knobs.size(); ++i)
+    params.push_back({filterKnobName(filter.knobs[i]), shortest(chosen.params.knobs[i])});
+  if (bias.takesEpsilonAt) params.push_back({"epsilon_at", epsilonAtName(method.params.epsilonAt)});
+  params.push_back({"map_content", contentName(bias.channels)});
   params.push_back({"cull", cullModeName(choice.cull)});
-  params.push_back({"fit", windowFitName(map.fit)});
-  params.push_back({"snap", snaps(map) ? "on" : "off"});
-  params.push_back({"warp", warpName(map.warp)});
-  params.push_back({"cascades", int64_t{map.cascades}});  // as asked for: a spot has one all the same
-  for (const auto& [name, value] : mapParams(fitted, map)) params.push_back({name, value});
+  for (const Param& param : mapParams(map, fitted, choice.mapOptions)) params.push_back(param);
   return params;
 }
 
@@ -64,7 +68,7 @@ void describe(Row& row, const Entry& entry, const LabelledResult& judged) {
   const BiasMethod& bias = *entry.method.bias;
   row.bias = bias.name;
   row.tuning = entry.tuning;
-  for (const BiasKnob& knob : knobsOf(bias)) row.units.emplace_back(knob.name, unitName(knob.unit));
+  for (const Knob& knob : knobsOf(bias)) row.units.emplace_back(knob.name, unitName(knob.unit));
   const LabelImage& labels = judged.labels;
   row.agree = labels.count(Label::Agree);
   row.acne = labels.count(Label::Acne);
@@ -131,7 +135,7 @@ class MapComparison {
     const auto found = truths_.find(filter.id);
     if (found != truths_.end()) return found->second;
     FilteredTruth truth;
-    truth.visibility = lit_.filteredTruth(filter.id);
+    truth.visibility = lit_.filteredTruth(filterFor(options_, filter));
     truth.beauty = toSrgb8(lit_.radiance(truth.visibility));
     return truths_.emplace(filter.id, std::move(truth)).first->second;
   }
@@ -160,8 +164,9 @@ class MapComparison {
     const FittedMap& fitted = lit_.fitted();
     for (const Filter* filter : options_.filters) {
       const FilteredTruth& truth = filteredTruth(*filter);
-      std::vector<float> visibility =
-          filter->id == glsl::kFilterNone ? judged.visibility : lit_.visibility(entry.method, filter->id);
+      std::vector<float> visibility = filter->id == glsl::kShadowFilterNone
+                                          ? judged.visibility
+                                          : lit_.visibility(entry.method, filterFor(options_, *filter));
       for (const size_t pixel : judged.edgeOn) visibility[pixel] = truth.visibility[pixel];
       Row row;
       row.map = parameterization_.name();
@@ -170,15 +175,16 @@ class MapComparison {
       row.layers = fitted.map.layerCount;
       row.mapTexels = size_t{1} * fitted.map.side * fitted.map.rows * fitted.map.layerCount;
       row.mapDimensions = mapSizeText(fitted);
-      row.params = paramsOf(entry.method, fitted, options_);
+      row.params = paramsOf(entry.method, *filter, parameterization_, fitted, options_);
       row.filter = filter->name;
       describe(row, entry, judged);
+      for (const Knob& knob : filter->knobs) row.units.emplace_back(filterKnobName(knob), unitName(knob.unit));
       row.rmse = rmseOf(lit_.receivers(), visibility, truth.visibility);
       const int width = lit_.receivers().width, height = lit_.receivers().height;
       row.worstAcne = findWorstPlace(judged.labels, width, height, Label::Acne);
       row.worstLeak = findWorstPlace(judged.labels, width, height, Label::Leak);
       // Half a second a row at 1024 x 1024: what binary results have labels for.
-      const bool flips = options_.filters.size() > 1 || filter->id != glsl::kFilterNone;
+      const bool flips = options_.filters.size() > 1 || filter->id != glsl::kShadowFilterNone;
       Image8 beauty;
       if (flips || !options_.outDir.empty()) beauty = toSrgb8(lit_.radiance(visibility));
       if (flips) row.flip = computeFlip(truth.beauty, beauty).mean;
@@ -203,25 +209,25 @@ class MapComparison {
   // tuned row costs what its untuned one costs.
   void timeRows(const std::vector<Entry>& entries) {
     const size_t filterCount = options_.filters.size();
-    std::map<MapContent, std::vector<double>> build;
+    std::map<ChannelSet, std::vector<double>> build;
     std::vector<std::vector<double>> shade(options_.biases.size() * filterCount);
     for (int round = -1; round < options_.repeats; ++round) {  // round -1 warms up: pipelines compile at first use
       step(round < 0 ? "timing, warm-up" : fmt::format("timing, {} of {}", round + 1, options_.repeats));
-      std::map<MapContent, double> drawn;
+      std::map<ChannelSet, double> drawn;
       for (const BiasMethod* bias : options_.biases)
-        if (!drawn.contains(bias->content)) drawn[bias->content] = lit_.redraw(bias->content);
+        if (!drawn.contains(bias->channels)) drawn[bias->channels] = lit_.redraw(bias->channels);
       if (round >= 0)
-        for (const auto& [content, ms] : drawn) build[content].push_back(ms);
+        for (const auto& [channels, ms] : drawn) build[channels].push_back(ms);
       for (size_t i = 0; i < shade.size(); ++i) {
         const Method& method = entries[i / filterCount].method;
-        const double ms = lit_.timeVisibility(method, options_.filters[i % filterCount]->id);
+        const double ms = lit_.timeVisibility(method, filterFor(options_, *options_.filters[i % filterCount]));
         if (round >= 0) shade[i].push_back(ms);
       }
     }
     for (const Entry& entry : entries) {
       const auto like = std::ranges::find(options_.biases, entry.method.bias) - options_.biases.begin();
       for (size_t f = 0; f < filterCount; ++f) {
-        rows_[entry.row + f].buildMs = median(build[entry.method.bias->content]);
+        rows_[entry.row + f].buildMs = median(build[entry.method.bias->channels]);
         rows_[entry.row + f].shadeMs = median(shade[static_cast<size_t>(like) * filterCount + f]);
       }
     }
@@ -238,13 +244,13 @@ class MapComparison {
     if (const std::optional<SolidAngles> angles = computeSolidAngles(fitted))
       summary.solidAngles = {.smallest = angles->smallest, .largest = angles->largest};
     if (options_.outDir.empty()) return summary;
-    const bool two =
-        std::ranges::any_of(options_.biases, [](const BiasMethod* b) { return b->content == MapContent::TwoLayers; });
-    const Occluders& drawn = lit_.occluders(two ? MapContent::TwoLayers : MapContent::OneLayer);
+    const bool two = std::ranges::any_of(
+        options_.biases, [](const BiasMethod* b) { return (b->channels & glsl::kChannelSecondDepth) != 0; });
+    const Occluders& drawn = lit_.occluders(glsl::kChannelDepth | (two ? glsl::kChannelSecondDepth : 0));
     const FilteredTruth& plain = filteredTruth(filters().front());
     summary.pictures = writeMapPictures(lit_.view().device(), lit_.receivers(), drawn, plain, options_.outDir, folder_);
     for (const Filter* filter : options_.filters)
-      if (filter->id != glsl::kFilterNone)
+      if (filter->id != glsl::kShadowFilterNone)
         summary.filteredTruths.emplace_back(
             filter->name, writeFilteredTruth(lit_.receivers(), filteredTruth(*filter), options_.outDir,
                                              fmt::format("{}/truth.{}", folder_, filter->name)));
@@ -308,7 +314,7 @@ CompareOptions optionsFor(const CompareOptions& options, const Parameterization&
   CompareOptions own = options;
   std::erase_if(own.biases, [&](const BiasMethod* bias) { return !map.supportsBias(*bias); });
   std::erase_if(own.filters,
-                [&](const Filter* filter) { return filter->id != glsl::kFilterNone && !map.supportsFilters(); });
+                [&](const Filter* filter) { return filter->id != glsl::kShadowFilterNone && !map.supportsFilters(); });
   return own;
 }
 
@@ -346,7 +352,10 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   }
   if (comparison.rows.empty()) openLight(session, passes, *options.maps.front(), {});  // says why
   if (severalLights) addSums(comparison);
-  for (Row& row : comparison.rows) row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
+  for (Row& row : comparison.rows) {
+    row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
+    row.command = rowCommand(session.setup(), options, row);
+  }
   return comparison;
 }
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "lab/core/depth_images.h"
 #include "lab/picture/pictures.h"
+#include "planar/planar_map.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,7 @@ namespace {
 struct Subject {
   LightOnMap& lit;
   const Method& method;
-  int filter;
+  ChosenFilter filter;
 
   const Receivers& receivers() const { return lit.receivers(); }
   std::vector<float> visibility() const { return lit.visibility(method, filter); }
@@ -69,18 +70,18 @@ RenderedPicture metres(const ImageF& depth) {
   return {depthPicture(depth), depth, {"metres"}, {}};
 }
 
-DepthImages depthsOf(LightOnMap& lit, MapContent content) {
-  return depthInMetres(lit.view().device(), lit.occluders(content));
+DepthImages depthsOf(LightOnMap& lit, ChannelSet channels) {
+  return depthInMetres(lit.view().device(), lit.occluders(channels));
 }
 
 RenderedPicture depth(const Subject& subject) {
-  return metres(depthsOf(subject.lit, subject.method.bias->content).first);
+  return metres(depthsOf(subject.lit, glsl::kChannelDepth).first);
 }
 
 DepthImages twoDepthsOf(LightOnMap& lit) {
   if (!lit.parameterization().supportsBias(findBias("dual")))
     throw UsageError(fmt::format("--show: a {} map stores one depth; choose depth", lit.parameterization().name()));
-  return depthsOf(lit, MapContent::TwoLayers);
+  return depthsOf(lit, glsl::kChannelDepth | glsl::kChannelSecondDepth);
 }
 
 RenderedPicture secondDepth(const Subject& subject) {
@@ -91,46 +92,46 @@ RenderedPicture layerGap(const Subject& subject) {
   return metres(*twoDepthsOf(subject.lit).gap);
 }
 
-RenderedPicture density(const Subject& subject) {
+RenderedPicture texelDensity(const Subject& subject) {
   const LightOnMap& lit = subject.lit;
   const std::vector<float> densities = lit.texelDensities();
   const MapSetup& setup = lit.setup();
   const std::string title = fmt::format("{}, {} x {} x {} texels, fit {}, warp {}", lit.parameterization().name(),
                                         lit.fitted().map.layerCount, setup.side, setup.side,
-                                        windowFitName(setup.options.fit), warpName(setup.options.warp));
+                                        setup.options.text(kWindowFit), setup.options.text(kWarp));
   return {densityPicture(lit.receivers(), densities, title), oneChannel(subject, densities), {"texels_per_m2"}, {}};
 }
 
-struct Shown {
+struct ShowChoice {
   const char* name;
   RenderedPicture (*draw)(const Subject& subject);
 };
-constexpr std::array kShown = {Shown{"beauty", beauty},
-                               Shown{"visibility", visibility},
-                               Shown{"truth", truth},
-                               Shown{"difference", difference},
-                               Shown{"labels", labels},
-                               Shown{"depth", depth},
-                               Shown{"second-depth", secondDepth},
-                               Shown{"layer-gap", layerGap},
-                               Shown{"density", density}};
+constexpr std::array kShown = {ShowChoice{"beauty", beauty},
+                               ShowChoice{"visibility", visibility},
+                               ShowChoice{"truth", truth},
+                               ShowChoice{"difference", difference},
+                               ShowChoice{"labels", labels},
+                               ShowChoice{"depth", depth},
+                               ShowChoice{"second-depth", secondDepth},
+                               ShowChoice{"layer-gap", layerGap},
+                               ShowChoice{"texel-density", texelDensity}};
 
 }  // namespace
 
 std::vector<std::string> picturesToShow() {
   std::vector<std::string> names;
-  for (const Shown& shown : kShown) names.emplace_back(shown.name);
+  for (const ShowChoice& shown : kShown) names.emplace_back(shown.name);
   return names;
 }
 
 RenderedPicture renderPicture(const Session& session, const CompareOptions& options, const std::string& show) {
-  const auto* const shown = std::ranges::find_if(kShown, [&](const Shown& s) { return s.name == show; });
+  const auto* const shown = std::ranges::find_if(kShown, [&](const ShowChoice& s) { return s.name == show; });
   if (shown == kShown.end()) throw UsageError(fmt::format("--show {}: no such picture", show));
   const Parameterization& map = *options.maps.front();
   ShadowPasses passes(session);
   LightOnMap lit = openLight(session, passes, map, mapSetupOf(options, map));
   const Method method = methodFor(session, options, *options.biases.front());
-  RenderedPicture picture = shown->draw({lit, method, options.filters.front()->id});
+  RenderedPicture picture = shown->draw({lit, method, filterFor(options, *options.filters.front())});
   picture.note = lit.fitted().note;
   return picture;
 }

@@ -62,7 +62,7 @@ Robustness::Robustness(const LightOnMap& tuned, const CompareOptions& options)
   if (other.receivers().scored > 0) otherCamera_ = std::make_unique<Place>(std::move(other));
   MapSetup halved = setup;
   halved.side = std::max(setup.side / 2, 2);
-  halved.options.volumeSize = halvedSize(setup.options.volumeSize);
+  halved.options = tuned.parameterization().halved(setup.options);
   otherMapSize_ = std::make_unique<Place>(LightOnMap(tuned, halved));
 }
 
@@ -75,16 +75,16 @@ Transfer Robustness::judgeAt(Place& place, const TunedMethod& tuned) {
   const TunedMethod best = tune(place.evaluator, tuned.method);
   transfer.biasError = static_cast<double>(errors) / scored;
   transfer.bestBiasError = static_cast<double>(std::min(best.biasErrors, errors)) / scored;
-  const BiasKnob& knob = knobsOf(*tuned.method.bias).front();
-  transfer.bestValue = (best.biasErrors <= errors ? best : tuned).method.params.*knob.field;
+  const Method& better = (best.biasErrors <= errors ? best : tuned).method;
+  transfer.bestValue = valueOf(better.params, *better.bias, knobsOf(*better.bias).front());
   return transfer;
 }
 
 Tuning tuningOf(const TunedMethod& tuned) {
-  const BiasKnob& knob = knobsOf(*tuned.method.bias).front();
+  const Knob& knob = knobsOf(*tuned.method.bias).front();
   Tuning tuning;
   tuning.knob = knob.name;
-  tuning.value = tuned.method.params.*knob.field;
+  tuning.value = valueOf(tuned.method.params, *tuned.method.bias, knob);
   tuning.unit = unitName(knob.unit);
   tuning.evaluations = tuned.evaluations;
   return tuning;

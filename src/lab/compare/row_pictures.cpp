@@ -38,7 +38,7 @@ Pictures writeMapPictures(const gpu::Device& device, const Receivers& receivers,
   writeDepth("depth", depth.first);
   if (map.layerCount > 1) {
     const std::string path = mapName + "/unfolded.png";
-    writePng(outDir / path, unfoldedPicture(depthPicture(depth.first), map, {64, 48, 64}));
+    writePng(outDir / path, unfoldedPicture(depthPicture(depth.first), occluders.fitted(), {64, 48, 64}));
     pictures.emplace_back("unfolded", path);
   }
   if (depth.second) writeDepth("second_depth", *depth.second);

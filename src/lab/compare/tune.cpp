@@ -16,13 +16,13 @@ constexpr double kGolden = 0.6180339887498949;
 // Evaluations of one knob, by its value; everything else stays.
 class KnobSearch {
  public:
-  KnobSearch(TuningEvaluator& evaluator, const Method& method, const BiasKnob& knob, float sceneScale)
+  KnobSearch(TuningEvaluator& evaluator, const Method& method, const Knob& knob, float sceneScale)
       : evaluator_(evaluator), method_(method), knob_(knob), unit_(knob.defaultOfSceneScale ? sceneScale : 1.0f) {}
 
   Method best() {
     for (int i = 0; i < kTuneGrid; ++i) errors(gridValue(i));
     errors(knob_.lower);
-    errors(method_.params.*knob_.field);
+    errors(valueOf(method_.params, *method_.bias, knob_));
     std::vector<std::pair<float, size_t>> points(seen_.begin(), seen_.end());
     const auto [first, last] = bestRun(points);
     float value = points[(first + last) / 2].first;
@@ -40,7 +40,7 @@ class KnobSearch {
 
   Method with(float value) const {
     Method changed = method_;
-    changed.params.*knob_.field = value;
+    valueOf(changed.params, *changed.bias, knob_) = value;
     return changed;
   }
 
@@ -94,7 +94,7 @@ class KnobSearch {
 
   TuningEvaluator& evaluator_;
   Method method_;
-  BiasKnob knob_;
+  const Knob& knob_;
   float unit_;
   std::map<float, size_t> seen_;
 };
@@ -137,10 +137,10 @@ size_t TuningEvaluator::biasErrors(const Method& method) {
 TunedMethod tune(TuningEvaluator& evaluator, const Method& start) {
   TunedMethod tuned{.method = start};
   const int before = evaluator.evaluations();
-  const std::vector<BiasKnob>& knobs = knobsOf(*start.bias);
+  const std::vector<Knob>& knobs = knobsOf(*start.bias);
   const int rounds = knobs.size() > 1 ? 2 : 1;
   for (int round = 0; round < rounds; ++round)
-    for (const BiasKnob& knob : knobs)
+    for (const Knob& knob : knobs)
       tuned.method = KnobSearch(evaluator, tuned.method, knob, evaluator.sceneScale()).best();
   tuned.biasErrors = evaluator.biasErrors(tuned.method);
   tuned.evaluations = evaluator.evaluations() - before;

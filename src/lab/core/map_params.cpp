@@ -1,56 +1,26 @@
 #include "lab/core/map_params.h"
 
-#include <fmt/format.h>
+#include "lab/core/maps.h"
 
 namespace gnomon {
 
-namespace {
-
-using Params = std::vector<std::pair<std::string, std::string>>;
-
-Params volumeParams(const FittedMap& fitted, const MapOptions& options) {
-  Params params = {{"vsv_size", volumeSizeName(options.volumeSize)},
-                   {"vsv_source", volumeSourceName(options.volumeSource)},
-                   {"vsv_fit", volumeFitName(options.volumeFit)}};
-  if (options.volumeSource == VolumeSource::Resample)
-    params.emplace_back("cube_size", fmt::format("{}", fitted.occluderSource->map.side));
-  return params;
-}
-
-Params cubeParams(const MapOptions& options) {
-  const MapOptions defaults;
+Params mapParams(const Parameterization& map, const FittedMap& fitted, const MapOptions& options) {
   Params params;
-  if (options.cubeDepth != defaults.cubeDepth) params.emplace_back("cube_depth", cubeDepthName(options.cubeDepth));
-  if (options.cubePasses != defaults.cubePasses) params.emplace_back("cube_passes", cubePassesName(options.cubePasses));
+  const auto tell = [&](const MapOption& option) {
+    const std::string text = option.told(options);
+    if (option.isNumber())
+      params.push_back({option.name(), int64_t{std::stoll(text)}});
+    else
+      params.push_back({option.name(), text});
+  };
+  for (const MapOption* option : allMapOptions())
+    if (option->results() == InResults::EveryRow) tell(*option);
+  for (const MapOption* option : map.options())
+    if (option->results() == InResults::OwnRows ||
+        (option->results() == InResults::WhereChanged && options.find(*option) != nullptr))
+      tell(*option);
+  for (const auto& [name, text] : map.fitParams(fitted)) params.push_back({name, text});
   return params;
-}
-
-Params paraboloidParams(const MapOptions& options) {
-  const MapOptions defaults;
-  Params params;
-  if (options.paraboloidRaster != defaults.paraboloidRaster)
-    params.emplace_back("paraboloid_raster", paraboloidRasterName(options.paraboloidRaster));
-  if (options.paraboloidAxisW) {
-    const glm::dvec3& axis = *options.paraboloidAxisW;
-    params.emplace_back("paraboloid_axis", fmt::format("{:.6g},{:.6g},{:.6g}", axis.x, axis.y, axis.z));
-  }
-  return params;
-}
-
-}  // namespace
-
-Params mapParams(const FittedMap& fitted, const MapOptions& options) {
-  switch (fitted.map.kind) {
-    case glsl::kMapEpipolar:
-      return volumeParams(fitted, options);
-    case glsl::kMapCube:
-    case glsl::kMapCubeRadial:
-      return cubeParams(options);
-    case glsl::kMapParaboloid:
-      return paraboloidParams(options);
-    default:
-      return {};
-  }
 }
 
 }  // namespace gnomon

@@ -1,15 +1,12 @@
 #pragma once
-// What a row's params say of its map's own options, by the names of docs/results.md.
+// What a row's params say of its map's options, by the names of docs/results.md.
 
+#include "lab/results/row.h"
 #include "shadow/parameterization.h"
-
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace gnomon {
 
-// Of a volume all of them; of a cube and a paraboloid those that are not at their defaults.
-std::vector<std::pair<std::string, std::string>> mapParams(const FittedMap& fitted, const MapOptions& options);
+// Options of every row first, then the map's own, then what it says of the fit.
+Params mapParams(const Parameterization& map, const FittedMap& fitted, const MapOptions& options);
 
 }  // namespace gnomon

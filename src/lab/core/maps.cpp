@@ -24,6 +24,17 @@ const std::vector<const Parameterization*>& parameterizations() {
   return all;
 }
 
+const std::vector<const MapOption*>& allMapOptions() {
+  static const std::vector<const MapOption*> all = [] {
+    std::vector<const MapOption*> options;
+    for (const Parameterization* map : parameterizations())
+      for (const MapOption* option : map->options())
+        if (std::ranges::find(options, option) == options.end()) options.push_back(option);
+    return options;
+  }();
+  return all;
+}
+
 std::vector<const Parameterization*> parseMaps(const std::string& list) {
   std::string names;
   for (const Parameterization* p : parameterizations()) names += (names.empty() ? "" : ", ") + std::string(p->name());

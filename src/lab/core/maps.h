@@ -11,4 +11,7 @@ const std::vector<const Parameterization*>& parameterizations();
 // "a,b" to parameterizations. Throws UsageError that lists the names.
 std::vector<const Parameterization*> parseMaps(const std::string& list);
 
+// What they declare, each once, in their order.
+const std::vector<const MapOption*>& allMapOptions();
+
 }  // namespace gnomon

@@ -29,8 +29,17 @@ MapSetup mapSetupOf(const MapChoice& choice, const Parameterization& map) {
 Method methodFor(const SceneView& view, const KnobChoices& choices, const BiasMethod& bias) {
   Method method = atDefaults(bias, view);
   method.params.epsilonAt = choices.epsilonAt;
-  for (const KnobValue& knob : choices.knobs) method.params.*knob.knob->field = knob.value;
+  for (const auto& [knob, value] : choices.knobs)
+    if (hasKnob(bias, *knob)) valueOf(method.params, bias, *knob) = value;
   return method;
+}
+
+ChosenFilter filterFor(const KnobChoices& choices, const Filter& filter) {
+  ChosenFilter chosen(filter.id);
+  for (const auto& [knob, value] : choices.knobs)
+    for (size_t i = 0; i < filter.knobs.size(); ++i)
+      if (&filter.knobs[i] == knob) chosen.params.knobs[i] = value;
+  return chosen;
 }
 
 double median(std::vector<double> values) {

@@ -19,7 +19,7 @@ int mapSideOf(const MapChoice& choice, const Parameterization& map);
 MapSetup mapSetupOf(const MapChoice& choice, const Parameterization& map);
 
 struct KnobValue {
-  const BiasKnob* knob = nullptr;
+  const Knob* knob = nullptr;
   float value = 0.0f;  // in the knob's unit
 };
 
@@ -28,8 +28,9 @@ struct KnobChoices {
   std::vector<KnobValue> knobs;  // that differ from their defaults
 };
 
-// A bias with its knobs as chosen, else at their defaults.
+// A bias or a filter with its knobs as chosen, else at their defaults.
 Method methodFor(const SceneView& view, const KnobChoices& choices, const BiasMethod& bias);
+ChosenFilter filterFor(const KnobChoices& choices, const Filter& filter);
 
 double median(std::vector<double> values);
 

@@ -4,7 +4,6 @@
 #include "judge/ground_truth.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -13,26 +12,6 @@
 namespace gnomon {
 
 namespace {
-
-std::optional<double> parseNumber(const std::string& text) {
-  double value = 0.0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::optional<glm::vec3> tryVec3(const std::string& text) {
-  std::istringstream words(text);
-  glm::vec3 v(0.0f);
-  int count = 0;
-  for (std::string word; std::getline(words, word, ','); ++count) {
-    const std::optional<double> number = parseNumber(word);
-    if (!number || count == 3) return std::nullopt;
-    v[count] = static_cast<float>(*number);
-  }
-  if (count != 3) return std::nullopt;
-  return v;
-}
 
 template <typename T>
 std::string namesOf(const std::vector<T>& things) {
@@ -143,6 +122,20 @@ Camera parseCamera(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::string> setupWords(const SetupOptions& options) {
+  std::vector<std::string> words = {options.scene};
+  const auto add = [&](const char* flag, const std::string& value, const std::string& usual) {
+    if (value != usual) words.insert(words.end(), {flag, value});
+  };
+  const SetupOptions defaults;
+  add("--light", options.light, defaults.light);
+  add("--camera", options.camera, defaults.camera);
+  add("--direction", options.direction, defaults.direction);
+  if (options.coneDegrees) add("--cone", fmt::format("{}", *options.coneDegrees), "");
+  add("--size", options.size, defaults.size);
+  return words;
+}
+
 PictureSize parseSize(const std::string& text) {
   PictureSize size;
   char by = 0, rest = 0;
@@ -157,12 +150,6 @@ PictureSize parseSize(const std::string& text) {
   if (size.width < 1 || size.height < 1 || size.width > 16384 || size.height > 16384)
     throw UsageError(fmt::format("--size {}: write N or WxH, each 1..16384 pixels", text));
   return size;
-}
-
-glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
-  const std::optional<glm::vec3> v = tryVec3(text);
-  if (!v) throw UsageError(fmt::format("{} {}: write three numbers, x,y,z", flag, text));
-  return *v;
 }
 
 Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {

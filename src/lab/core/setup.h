@@ -1,11 +1,13 @@
 #pragma once
 // From the words of a command line to what is measured: a scene, a light, a camera, a picture size.
 
+#include "base/parse.h"
 #include "shadow/parameterization.h"
 #include "truth/tracer.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace gnomon {
 
@@ -18,6 +20,9 @@ struct SetupOptions {
   std::string size = "1024";          // N or WxH, pixels
 };
 
+// The words of a command line that choose the same: the scene, and flags for what is not at its default.
+std::vector<std::string> setupWords(const SetupOptions& options);
+
 struct PictureSize {
   int width = 0;
   int height = 0;
@@ -25,9 +30,6 @@ struct PictureSize {
 
 // "640x480" or "512". Throws UsageError outside 1..16384.
 PictureSize parseSize(const std::string& text);
-
-// "1,2,3". Throws UsageError that names `flag`.
-glm::vec3 parseVec3(const std::string& flag, const std::string& text);
 
 // The light a map is made for. Throws UsageError (malformed) or WorldError (none of that name: lists those
 // there are; or one that the map cannot take).

@@ -31,12 +31,13 @@ std::vector<MediaMethod> methodsOf(const FogOptions& options) {
 
 Params paramsOf(const MediaMethod& method, const FogOptions& options, size_t lightCount) {
   const bool ofMap = method.readsDepths();
-  Params params = {{"map_size", ofMap ? std::to_string(options.mapSide) : volumeSizeName(options.map.volumeSize)},
+  Params params = {{"map_size", ofMap ? std::to_string(options.mapSide) : options.map.text(kVolumeSize)},
                    {"lights", static_cast<int64_t>(lightCount)}};
   if (!ofMap) {
-    params.push_back({"vsv_source", volumeSourceName(options.map.volumeSource)});
-    params.push_back({"vsv_fit", volumeFitName(options.map.volumeFit)});
-    if (options.map.volumeSource == VolumeSource::Resample) params.push_back({"cube_size", int64_t{options.mapSide}});
+    params.push_back({"vsv_source", options.map.text(kVolumeSource)});
+    params.push_back({"vsv_fit", options.map.text(kVolumeFit)});
+    if (options.map.get(kVolumeSource) == VolumeSource::Resample)
+      params.push_back({"cube_size", int64_t{options.mapSide}});
   }
   params.push_back({"cull", cullModeName(options.cull)});
   return params;

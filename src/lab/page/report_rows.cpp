@@ -1,6 +1,5 @@
 #include "lab/page/report_rows.h"
 
-#include "lab/page/report_command.h"
 #include "lab/page/report_text.h"
 
 #include <algorithm>
@@ -172,8 +171,7 @@ TemplateData rowView(const Row& row, size_t rank, const RowContext& context, Rep
   view.set("params", configurationView(row));
   view.set("counts", countsView(row));
   view.set("tuning", row.tuning ? tuningView(*row.tuning) : TemplateData(false));
-  const std::string command = rowCommand(context.data.program.command, row);
-  view.set("rowCommand", command.empty() ? TemplateData(false) : TemplateData(command));
+  view.set("rowCommand", row.command.empty() ? TemplateData(false) : TemplateData(row.command));
   return view;
 }
 

@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/progress.h"
+#include "lab/compare/compare_command.h"
 #include "lab/compare/results.h"
 #include "lab/picture/pictures.h"
 
@@ -17,44 +18,6 @@ namespace gnomon {
 namespace {
 
 constexpr int kLeastSide = 16;  // pixels or texels, of what is scaled down
-
-std::string quotedName(const std::string& name) {
-  return name.find(' ') == std::string::npos ? name : "'" + name + "'";
-}
-
-// The line that makes a comparison again.
-std::string compareCommand(const Session& session, const CompareOptions& options) {
-  const SetupOptions& setup = session.setup();
-  std::string line = fmt::format("gnomon compare {} --size {}", quotedName(setup.scene), setup.size);
-  if (!setup.light.empty()) line += " --light " + quotedName(setup.light);
-  if (!setup.camera.empty()) line += " --camera " + quotedName(setup.camera);
-  const bool isVolume = std::string(options.maps.front()->name()) == "vsv";
-  line += fmt::format(" --maps {}", options.maps.front()->name());
-  const MapOptions& map = options.mapOptions;
-  if (isVolume)
-    line += fmt::format(" --vsv-size {} --vsv-source {} --vsv-fit {}", volumeSizeName(map.volumeSize),
-                        volumeSourceName(map.volumeSource), volumeFitName(map.volumeFit));
-  if (!isVolume || map.volumeSource == VolumeSource::Resample) line += fmt::format(" --map-size {}", options.mapSide);
-  if (map.fit != WindowFit::Focused) line += fmt::format(" --fit {}", windowFitName(map.fit));
-  if (options.cull == CullMode::None) line += " --cull none";
-  std::string biases, filters;
-  for (const BiasMethod* bias : options.biases)
-    if (bias->user == nullptr) biases += (biases.empty() ? "" : ",") + std::string(bias->name);
-  for (const Filter* filter : options.filters) filters += (filters.empty() ? "" : ",") + std::string(filter->name);
-  line += " --biases " + (biases.empty() ? "none" : biases);
-  if (filters != "none") line += " --filters " + filters;
-  for (const KnobValue& value : options.knobs)
-    for (const BiasMethod* bias : options.biases)
-      for (const BiasKnob& knob : bias->knobs)
-        if (&knob == value.knob)
-          line += bias->user != nullptr
-                      ? fmt::format(" --bias-file {} --bias-file-knob {:.6g}", bias->user->path, value.value)
-                      : fmt::format(" --{}-{} {:.6g}", bias->name, knob.name, value.value);
-  if (options.epsilonAt != glsl::kEpsilonAtOccluder)
-    line += fmt::format(" --epsilon-at {}", epsilonAtName(options.epsilonAt));
-  if (options.tune) line += " --tune";
-  return line;
-}
 
 std::string countsText(const Row& row) {
   std::string text = fmt::format("acne {}, leak {}, edges {} of {} scored pixels", row.acne, row.leak,
@@ -158,8 +121,7 @@ Comparison FigureRun::compare(const std::string& name, const CompareOptions& ask
   below_ = folder() + "/" + name;
   if (!run_.options().outDir.empty()) options.outDir = run_.options().outDir / below_;
   Comparison comparison = gnomon::compare(session, options);
-  command_ = compareCommand(session, options);
-  run_.addComparison(below_, resultsJson(session, comparison, command_));
+  run_.addComparison(below_, resultsJson(session, comparison, compareCommand(session.setup(), options)));
   const TruthSummary& truth = comparison.truths.front();
   const Row& row = comparison.rows.front();
   std::string text = fmt::format("{}, light '{}', camera '{}', {} × {} pixels; {} map, {} {}", session.scene().name,
@@ -175,7 +137,7 @@ void FigureRun::panel(const std::string& name, const Row& row, const std::string
                              .what = what,
                              .says = says,
                              .counts = countsText(row),
-                             .command = command_,
+                             .command = row.command,
                              .picture = pathOf(row.pictures, picture, below_),
                              .labels = pathOf(row.pictures, "labels", below_)});
   number("scored", name, static_cast<double>(row.scored));
@@ -239,14 +201,14 @@ std::vector<FrameCost> timeFrames(const Session& session, const Parameterization
   for (int round = -1; round < repeats; ++round) {  // round -1 compiles the pipelines
     progress.step(round < 0 ? "first frames" : fmt::format("round {} of {} of frames", round + 1, repeats));
     double first = 0.0;
-    std::map<std::pair<int, MapContent>, double> drawn;  // methods that share a map share what it took
+    std::map<std::pair<int, ChannelSet>, double> drawn;  // methods that share a map share what it took
     for (size_t i = 0; i < kinds.size(); ++i) {
       const FrameKind& kind = kinds[i];
       double build = 0.0, visibility = 0.0, rest = session.timeGBuffer();
       if (kind.bias != nullptr) {
         LightOnMap& lit = maps.at(kind.mapSide);
-        const std::pair key(kind.mapSide, kind.bias->content);
-        if (!drawn.contains(key)) drawn[key] = lit.redraw(kind.bias->content);
+        const std::pair key(kind.mapSide, kind.bias->channels);
+        if (!drawn.contains(key)) drawn[key] = lit.redraw(kind.bias->channels);
         build = drawn[key];
         visibility = lit.timeVisibility(atDefaults(*kind.bias, session), kind.filter->id);
       }

@@ -78,8 +78,7 @@ class FigureRun {
   PaperRun& run_;
   const std::string id_;
   size_t index_;
-  std::string command_;  // of the last comparison
-  std::string below_;    // its folder, below outDir
+  std::string below_;  // the last comparison's folder, below outDir
 };
 
 // The row of a comparison, which must be there.

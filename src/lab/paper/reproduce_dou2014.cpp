@@ -6,7 +6,9 @@
 #include "lab/compare/tune.h"
 #include "lab/core/maps.h"
 #include "lab/paper/errata/errata.h"
+#include "planar/planar_map.h"
 #include "shadow/user_bias.h"
+#include "vsv/volume_parameterization.h"
 
 #include <algorithm>
 #include <array>
@@ -141,9 +143,7 @@ void figure7(PaperRun& run) {
 CompareOptions volumeOf(const PaperRun& run, const VolumeSize& size, VolumeSource source, VolumeFit fit,
                         const char* biases) {
   CompareOptions options = mapOf(run, "vsv", 1024, biases);
-  options.mapOptions.volumeSize = run.scaled(size);
-  options.mapOptions.volumeSource = source;
-  options.mapOptions.volumeFit = fit;
+  options.mapOptions = {kVolumeSize(run.scaled(size)), kVolumeSource(source), kVolumeFit(fit)};
   return options;
 }
 
@@ -211,7 +211,8 @@ void figure12(PaperRun& run) {
   FigureRun figure(run, "12", "A map too coarse for planes");
   for (const int side : {1024, 512}) {
     CompareOptions options = mapOf(run, "directional", side, "none,adaptive");
-    options.mapOptions.fit = WindowFit::None;  // the paper's light is far from the object, and the map holds all
+    options.mapOptions.set(
+        kWindowFit(WindowFit::None));  // the paper's light is far from the object, and the map holds all
     const Comparison all = figure.compare(fmt::format("{}", side), options);
     figure.panel(fmt::format("{}", side), rowOf(all, "adaptive"), fmt::format("adaptive, {} texels a side", side),
                  side == 1024 ? "Most false shadows are gone."

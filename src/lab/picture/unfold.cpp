@@ -8,16 +8,9 @@ namespace gnomon {
 
 namespace {
 
-bool isCube(const glsl::ShadowMap& map) {
-  return map.kind == glsl::kMapCube || map.kind == glsl::kMapCubeRadial;
-}
-
 // Where a layer's square stands in the picture, in squares.
-glm::ivec2 placeOf(const glsl::ShadowMap& map, int layer) {
-  // +X -X +Y -Y +Z -Z
-  constexpr std::array<glm::ivec2, 6> kCross = {
-      {glm::ivec2(2, 1), glm::ivec2(0, 1), glm::ivec2(1, 0), glm::ivec2(1, 2), glm::ivec2(1, 1), glm::ivec2(3, 1)}};
-  return isCube(map) ? kCross[static_cast<size_t>(layer)] : glm::ivec2(layer, 0);
+glm::ivec2 placeOf(const FittedMap& fitted, int layer) {
+  return fitted.unfoldedAt.empty() ? glm::ivec2(layer, 0) : fitted.unfoldedAt[static_cast<size_t>(layer)];
 }
 
 double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -27,13 +20,15 @@ double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 
 }  // namespace
 
-Image8 unfoldedPicture(const Image8& layers, const glsl::ShadowMap& map, const glm::u8vec3& outside) {
+Image8 unfoldedPicture(const Image8& layers, const FittedMap& fitted, const glm::u8vec3& outside) {
+  const glsl::ShadowMap& map = fitted.map;
   const int side = map.side;
-  const glm::ivec2 squares = isCube(map) ? glm::ivec2(4, 3) : glm::ivec2(map.layerCount, 1);
+  glm::ivec2 squares(1);
+  for (int layer = 0; layer < map.layerCount; ++layer) squares = glm::max(squares, placeOf(fitted, layer) + 1);
   Image8 picture(squares.x * side, squares.y * side, 3);
   for (size_t i = 0; i < picture.values.size(); ++i) picture.values[i] = outside[static_cast<int>(i % 3)];
   for (int layer = 0; layer < map.layerCount; ++layer) {
-    const glm::ivec2 corner = placeOf(map, layer) * side;
+    const glm::ivec2 corner = placeOf(fitted, layer) * side;
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x)
         if (glsl::mapHoldsTexel(map, layer, {x, y}))

@@ -9,12 +9,12 @@
 namespace gnomon {
 
 // Layers side by side (as DepthImages has them) laid out as they lie around the light; `outside` where there
-// is no texel.
+// is no texel (FittedMap::unfoldedAt).
 //
 //   cube        +Y           paraboloid  two discs      others  side by side
 //            -X +Z +X -Z
 //               -Y           seen from the light
-Image8 unfoldedPicture(const Image8& layers, const glsl::ShadowMap& map, const glm::u8vec3& outside);
+Image8 unfoldedPicture(const Image8& layers, const FittedMap& fitted, const glm::u8vec3& outside);
 
 // Steradians of the smallest and the largest texel, and of all. Absent for directional maps, whose rays are
 // parallel. Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", 1983, of the two halves of each

@@ -89,6 +89,7 @@ struct Row {
   double buildMs = 0.0, shadeMs = 0.0, frameMs = 0.0;
   std::optional<Tuning> tuning;
   std::optional<WorstPlace> worstAcne, worstLeak;
+  std::string command;
   Pictures pictures;
 
   bool isTuned() const { return tuning.has_value(); }
@@ -190,6 +191,7 @@ struct Row {
         field("tuning", &Row::tuning, {.says = "of a tuned row, else null; below"}),
         field("worst_acne", &Row::worstAcne, {.says = "the square of the picture with the most acne, or null; below"}),
         field("worst_leak", &Row::worstLeak, {.says = "likewise of leak"}),
+        field("command", &Row::command, {.says = "the command line that makes this row again", .absent = Absent::Earlier}),
         field("pictures", &Row::pictures,
               {.says = "paths relative to results.json; below", .absent = Absent::Earlier}));
   }

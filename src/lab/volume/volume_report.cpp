@@ -1,6 +1,7 @@
 #include "lab/volume/volume_report.h"
 
 #include "lab/core/results_head.h"
+#include "vsv/volume_parameterization.h"
 
 #include <numbers>
 
@@ -151,11 +152,11 @@ std::string volumeTable(const Session& session, const VolumeOptions& options, co
       line("scene", fmt::format("{}, {} triangles; light '{}'; camera '{}'", session.scene().name,
                                 triangleCount(session.scene()), result.light.name, session.camera().name)) +
       line("volume", fmt::format("{} x {} x {} (alpha x theta x phi), {}{}, {}", grid.alphaCount, grid.thetaCount,
-                                 grid.phiCount, volumeSourceName(options.map.volumeSource),
-                                 options.map.volumeSource == VolumeSource::Resample
+                                 grid.phiCount, options.map.text(kVolumeSource),
+                                 options.map.get(kVolumeSource) == VolumeSource::Resample
                                      ? fmt::format(" from a cube map of side {}", options.mapSide)
                                      : std::string(),
-                                 volumeFitName(options.map.volumeFit))) +
+                                 options.map.text(kVolumeFit))) +
       line("ranges", fmt::format("alpha {}, theta {}, phi {} degrees; light to eye {:.4g} m",
                                  rangeText(grid.alphaLower, grid.alphaStep, grid.alphaCount),
                                  rangeText(grid.thetaLower, grid.thetaStep, grid.thetaCount),
@@ -187,14 +188,14 @@ std::string volumeJson(const Session& session, const VolumeOptions& options, con
   json["scene"] = {{"name", session.scene().name}, {"triangles", triangleCount(session.scene())}};
   json["light"] = {{"name", result.light.name}, {"position", vec3Json(frame.originW)}};
   json["camera"] = {{"name", session.camera().name}, {"eye", vec3Json(session.view().eyeW)}};
-  json["volume"] = {{"source", volumeSourceName(options.map.volumeSource)},
-                    {"fit", volumeFitName(options.map.volumeFit)},
+  json["volume"] = {{"source", options.map.text(kVolumeSource)},
+                    {"fit", options.map.text(kVolumeFit)},
                     {"alpha", rangeJson(grid.alphaLower, grid.alphaStep, grid.alphaCount)},
                     {"theta", rangeJson(grid.thetaLower, grid.thetaStep, grid.thetaCount)},
                     {"phi", rangeJson(grid.phiLower, grid.phiStep, grid.phiCount)},
                     {"voxels", result.voxels},
                     {"occluded", result.occluded}};
-  if (options.map.volumeSource == VolumeSource::Resample) json["volume"]["map_size"] = options.mapSide;
+  if (options.map.get(kVolumeSource) == VolumeSource::Resample) json["volume"]["map_size"] = options.mapSide;
   if (result.validation) addValidation(json, *result.validation);
   json["memory"] = {{"dense_bytes", result.denseBytes},
                     {"openvdb_bytes", result.gridBytes},

@@ -131,8 +131,7 @@ VolumeResult examineVolume(const Session& session, const VolumeOptions& options)
   if (!options.vdb.empty()) {
     progress.step("writing " + options.vdb.string());
     watch.lap();
-    VdbOptions vdb{.source = fmt::format("{}, {}", volumeSourceName(options.map.volumeSource),
-                                         volumeFitName(options.map.volumeFit)),
+    VdbOptions vdb{.source = fmt::format("{}, {}", options.map.text(kVolumeSource), options.map.text(kVolumeFit)),
                    .command = options.command,
                    .voxelMetres = options.vdbVoxel};
     vdb.boundsW = computeBounds(session.scene());

@@ -70,7 +70,7 @@ void addFenceTexture(Scene& scene) {
   info.firstTexel = static_cast<uint32_t>(scene.texels.size());
   info.width = info.height = kSide;
   info.wrapS = info.wrapT = glsl::kWrapRepeat;
-  info.filterMode = glsl::kFilterNearest;
+  info.filterMode = glsl::kTexFilterNearest;
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
       const bool bar = x < 4 || y < 4;

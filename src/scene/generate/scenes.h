@@ -13,7 +13,7 @@ Scene makeCorner();
 Scene makeGrate();
 Scene makeSheets();
 Scene makeContact();
-Scene makeSlope();
+Scene makeTiltedPlanes();
 Scene makeNearFar();
 
 // Within 5% of `triangles`, which must be in this range.

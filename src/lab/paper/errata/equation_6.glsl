@@ -18,7 +18,7 @@ GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap 
   float x = -(lf * ln) / (lf - plane.depth * (lf - ln));
   float depth = (-a * x + b) / (2.0f * x) + 0.5f;
   float rest = lf - depth * (lf - ln);
-  float epsilon = rest * rest / (lf * ln * (lf - ln)) * map.sceneScale * params.userKnob;  // equation 10
+  float epsilon = rest * rest / (lf * ln * (lf - ln)) * map.sceneScale * params.knobs[kUserK];  // equation 10
   return depth - epsilon <= tap.z1;
 }
 

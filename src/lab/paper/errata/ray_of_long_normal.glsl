@@ -20,7 +20,7 @@ GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap 
   float distance_ = approach == 0.0f ? -1.0f : dot(receiver.normalL, receiver.posL) / approach;
   float depth = (distance_ - map.zNear) / (map.zFar - map.zNear);
   if (!(distance_ >= 0.0f && depth >= 0.0f && depth <= 1.0f)) depth = mapDepth(map, tap.layer, receiver.posL);
-  float epsilon = map.sceneScale * params.userKnob / (map.zFar - map.zNear);
+  float epsilon = map.sceneScale * params.knobs[kUserK] / (map.zFar - map.zNear);
   return depth - epsilon <= tap.z1;
 }
 

@@ -21,9 +21,9 @@ namespace gnomon {
 // cos(angle) at any other point of the tile is (distance of the light from the plane) / (distance of the
 // light from the point), so a tile faces the light everywhere or nowhere: the last, at 88.5 degrees, still
 // faces it.
-Scene makeSlope() {
+Scene makeTiltedPlanes() {
   Scene scene;
-  scene.name = "slope";
+  scene.name = "tilted-planes";
   const glm::dvec3 lightW(-4.6, 4.6, 3.4), eyeW(0.0, 0.0, 8.5);
   constexpr std::array<double, 16> kAngles = {0, 10, 20, 30, 40, 50, 60, 66, 70, 74, 78, 81, 83, 85, 87, 88.5};
   constexpr double kHalf = 0.42, kPitch = 1.5;  // metres

@@ -1,0 +1,34 @@
+// How a fragment stores what the channels of its texel hold (shared/channels.glsl): the last that each fragment shader
+// of a map does. What a fragment has to offer is its depth and which triangle of which instance it is of.
+//
+// A colour's location is that of its channel in src/shadow/channel.cpp; one that the pass has no target for goes nowhere.
+// Depth itself is the depth buffer's: gl_FragCoord.z, unless the shader writes gl_FragDepth.
+#ifndef GNOMON_STORE_CHANNELS_GLSL
+#define GNOMON_STORE_CHANNELS_GLSL
+
+#include "shared/channels.glsl"
+
+#include "shadow/drawn_slice.glsl"
+
+layout(constant_id = 1) const int kPass = kPassNearest;
+
+layout(binding = kBindMapDepth) uniform texture2DArray depthSlices;
+
+layout(location = 0) out float storedSecondDepth;
+
+struct DrawnFragment {
+  float depth;     // as the map has it
+  uint triangle;   // in the array of all triangles
+  uint instance;
+};
+
+// In the peel what equals the first depth layer, up to a tolerance, is thrown away (Weiskopf & Ertl 2003, section 5).
+void storeChannels(DrawnFragment drawn) {
+  if (kPass == kPassPeel) {
+    float first = texelFetch(depthSlices, ivec3(ivec2(gl_FragCoord.xy), drawnSlice()), 0).x;
+    if (drawn.depth <= first + tolerance) discard;
+  }
+  storedSecondDepth = drawn.depth;
+}
+
+#endif

@@ -1,0 +1,49 @@
+#include "base/parse.h"
+
+#include "base/error.h"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+std::optional<double> parseNumber(const std::string& text) {
+  double value = 0.0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<glm::vec3> tryVec3(const std::string& text) {
+  std::istringstream words(text);
+  glm::vec3 v(0.0f);
+  int count = 0;
+  for (std::string word; std::getline(words, word, ','); ++count) {
+    const std::optional<double> number = parseNumber(word);
+    if (!number || count == 3) return std::nullopt;
+    v[count] = static_cast<float>(*number);
+  }
+  if (count != 3) return std::nullopt;
+  return v;
+}
+
+glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
+  const std::optional<glm::vec3> v = tryVec3(text);
+  if (!v) throw UsageError(fmt::format("{} {}: write three numbers, x,y,z", flag, text));
+  return *v;
+}
+
+std::string shellWord(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                          "_-+=.,:/%@") == std::string::npos;
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace gnomon

@@ -1,0 +1,155 @@
+#include "cli/bias_flags.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+namespace gnomon {
+
+namespace {
+
+std::string knobHelp(const char* owner, const Knob& knob) {
+  const std::string unit = *unitName(knob.unit) != '\0' ? fmt::format(" [{}]", unitName(knob.unit)) : "";
+  return fmt::format("{}: {}{}; default {:g}{}", owner, knob.sentence, unit, knob.defaultValue,
+                     knob.defaultOfSceneScale ? " of the scene's diagonal" : "");
+}
+
+template <typename Function>
+void forEachKnob(Function function) {
+  for (const BiasMethod& method : biasMethods())
+    for (const Knob& knob : method.knobs) function(method.name, knob);
+  for (const Filter& filter : filters())
+    for (const Knob& knob : filter.knobs) function(filter.name, knob);
+}
+
+float checkedKnob(const std::string& flag, const Knob& knob, float value) {
+  if (!(value >= knob.lower && value <= knob.upper))
+    throw UsageError(
+        fmt::format("{} {:g} is outside {:g}..{:g} {}", flag, value, knob.lower, knob.upper, unitName(knob.unit)));
+  return value;
+}
+
+std::string filterChoices() {
+  std::string choices;
+  for (const Filter& filter : filters())
+    choices += fmt::format("{}{} ({})", choices.empty() ? "" : ", ", filter.name, filter.sentence);
+  return choices;
+}
+
+// Those that --biases names, of the list or of a --bias-file by its name.
+void addNamedBiases(const BiasFlags& flags, CompareOptions& options) {
+  std::string listed;
+  const auto isListed = [](const std::string& word) {
+    return std::ranges::any_of(biasMethods(), [&](const BiasMethod& method) { return method.name == word; });
+  };
+  std::istringstream words(flags.biases);
+  for (std::string word; std::getline(words, word, ',');)
+    if (isListed(word) ||
+        std::ranges::none_of(options.userBiases, [&](const auto& user) { return user->name == word; }))
+      listed += (listed.empty() ? "" : ",") + word;
+  if (!listed.empty() || flags.biases.empty()) options.biases = parseBiases(listed);
+}
+
+float parseKnobValue(const std::string& text, const std::string& number) {
+  size_t used = 0;
+  float value = 0.0f;
+  try {
+    value = std::stof(number, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != number.size())
+    throw UsageError(fmt::format("--bias-file-knob {}: '{}' is no number; write NAME=VALUE or VALUE", text, number));
+  return value;
+}
+
+std::string knobNames(const BiasMethod& method) {
+  std::string names;
+  for (const Knob& knob : method.knobs) names += (names.empty() ? "" : ", ") + std::string(knob.name);
+  return names;
+}
+
+// NAME=VALUE: of every file that has such a knob. VALUE alone: of every file, each of which must have one knob.
+void setUserKnob(const std::string& text, CompareOptions& options) {
+  const size_t equals = text.find('=');
+  const bool named = equals != std::string::npos;
+  const std::string name = named ? text.substr(0, equals) : "";
+  const float value = parseKnobValue(text, named ? text.substr(equals + 1) : text);
+  bool found = false;
+  std::string known;
+  for (const auto& user : options.userBiases) {
+    const BiasMethod& method = user->method;
+    if (method.knobs.empty() && (!named || options.userBiases.size() == 1))
+      throw UsageError(fmt::format("--bias-file-knob {}: {} has no knob; write //! knob: in it", text, user->path));
+    if (!named && method.knobs.size() > 1)
+      throw UsageError(fmt::format("--bias-file-knob {}: {} has {} knobs; write NAME=VALUE, NAME one of {}", text,
+                                   user->path, method.knobs.size(), knobNames(method)));
+    known += (known.empty() || method.knobs.empty() ? "" : ", ") + knobNames(method);
+    for (const Knob& knob : method.knobs) {
+      if (named && name != knob.name) continue;
+      options.knobs.push_back({&knob, checkedKnob("--bias-file-knob " + std::string(knob.name), knob, value)});
+      found = true;
+    }
+  }
+  if (!found) throw UsageError(fmt::format("--bias-file-knob {}: no such knob; choose from {}", text, known));
+}
+
+// Those of all --bias-file, after the others.
+void addUserBiases(const BiasFlags& flags, CompareOptions& options) {
+  for (const std::shared_ptr<const UserBias>& user : options.userBiases) {
+    const BiasMethod& method = user->method;
+    for (const BiasMethod* other : options.biases)
+      if (std::string_view(other->name) == method.name)
+        throw UsageError(fmt::format("--bias-file {}: two biases are named '{}'; write //! name: in one of them",
+                                     user->path, method.name));
+    options.biases.push_back(&method);
+  }
+  if (flags.biasFiles.empty() && !flags.biasFileKnobs.empty()) throw UsageError("--bias-file-knob needs a --bias-file");
+  for (const std::string& text : flags.biasFileKnobs) setUserKnob(text, options);
+}
+
+}  // namespace
+
+void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases) {
+  flags.biases = defaultBiases;
+  std::string biases;
+  for (const BiasMethod& method : biasMethods()) biases += fmt::format("{}{}", biases.empty() ? "" : ", ", method.name);
+  std::string sentences = "Biases:\n";
+  for (const BiasMethod& method : biasMethods())
+    sentences += fmt::format("  {:<17} {}\n", method.name, method.sentence);
+  verb.footer(sentences);
+  verb.add_option("--biases", flags.biases, fmt::format("comma-separated, or all: {}", biases))->capture_default_str();
+  verb.add_option("--bias-file", flags.biasFiles,
+                  "GLSL file with a bias of your own, scored as one more row (docs/add_a_bias.md); may be repeated");
+  verb.add_option(
+          "--bias-file-knob", flags.biasFileKnobs,
+          "NAME=VALUE: a knob of your bias, in its unit (VALUE alone where it has one knob); default: as the file "
+          "says; may be repeated")
+      ->allow_extra_args(false);
+  verb.add_option("--filters", flags.filters, "comma-separated, or all: " + filterChoices())->capture_default_str();
+  verb.add_option("--epsilon-at", flags.epsilonAt, "where adaptive takes its epsilon: fragment, occluder or stored")
+      ->capture_default_str();
+  forEachKnob([&](const char* owner, const Knob& knob) {
+    const std::string flag = knobFlag(owner, knob);
+    verb.add_option_function<float>(
+        flag, [&flags, flag](float value) { flags.knobs[flag] = value; }, knobHelp(owner, knob));
+  });
+}
+
+void chooseBiases(const BiasFlags& flags, CompareOptions& options) {
+  for (const std::string& path : flags.biasFiles) options.userBiases.push_back(loadUserBias(path));
+  addNamedBiases(flags, options);
+  options.filters = parseFilters(flags.filters);
+  options.epsilonAt = parseEpsilonAt(flags.epsilonAt);
+  forEachKnob([&](const char* owner, const Knob& knob) {
+    const auto found = flags.knobs.find(knobFlag(owner, knob));
+    if (found != flags.knobs.end()) options.knobs.push_back({&knob, checkedKnob(found->first, knob, found->second)});
+  });
+  addUserBiases(flags, options);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,30 @@
+#pragma once
+// Flags that choose biases, filters and their knobs, derived from their lists (shadow/bias.h, shadow/filter.h).
+
+#include "lab/compare/compare.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon {
+
+struct BiasFlags {
+  std::string biases;
+  std::vector<std::string> biasFiles;
+  std::vector<std::string> biasFileKnobs;  // NAME=VALUE or VALUE
+  std::string filters = "none";
+  std::string epsilonAt = "occluder";
+  std::map<std::string, float> knobs;  // flag -> value
+};
+// --biases, --bias-file, --bias-file-knob, --filters, --epsilon-at, and a flag for each knob.
+void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases);
+
+// Sets the options' biases, knobs and filters. Throws UsageError.
+void chooseBiases(const BiasFlags& flags, CompareOptions& options);
+
+}  // namespace gnomon

@@ -1,0 +1,31 @@
+#pragma once
+// Flags that choose maps and how they are drawn. Those of one kind of map derive from what it declares
+// (Parameterization::options).
+
+#include "lab/core/method.h"
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon {
+
+struct MapFlags {
+  std::string maps;
+  int mapSize = 1024;  // texels of a layer's side
+  long mapTexels = 0;
+  std::string cull = "solids";
+  MapOptions options;
+};
+// --maps, --map-size, --map-texels, --cull, and a flag for each option of each map.
+void addMapFlags(CLI::App& verb, MapFlags& flags, const char* defaultMaps);
+void addCullFlag(CLI::App& verb, MapFlags& flags);
+void addMapOptionFlags(CLI::App& verb, MapFlags& flags, const std::vector<const MapOption*>& options);
+
+// What they choose. Throws UsageError where an option or a size cannot be had.
+MapChoice mapChoice(const MapFlags& flags);
+
+}  // namespace gnomon

@@ -1,0 +1,50 @@
+#include "cli/method_flags.h"
+
+#include "base/error.h"
+#include "lab/core/maps.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+// What means nothing on a map is left out there, and said so; where nothing is left, refused.
+void checkMeaning(const CompareOptions& options, const Parameterization& map) {
+  const CompareOptions own = optionsFor(options, map);
+  std::string biases, left;
+  for (const BiasMethod& method : biasMethods())
+    if (map.supportsBias(method)) biases += (biases.empty() ? "" : ", ") + std::string(method.name);
+  if (own.biases.empty())
+    throw UsageError(fmt::format("--maps {} takes none of these --biases; choose from {}", map.name(), biases));
+  if (own.filters.empty()) throw UsageError(fmt::format("--maps {} takes no filter; add --filters none", map.name()));
+  for (const BiasMethod* bias : options.biases)
+    if (std::ranges::find(own.biases, bias) == own.biases.end())
+      left += (left.empty() ? "" : ", ") + std::string(bias->name);
+  for (const Filter* filter : options.filters)
+    if (std::ranges::find(own.filters, filter) == own.filters.end())
+      left += (left.empty() ? "" : ", ") + std::string(filter->name);
+  if (!left.empty()) fmt::print(stderr, "gnomon: {} has no depths to compare, so it leaves out {}\n", map.name(), left);
+}
+
+}  // namespace
+
+void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases) {
+  addMapFlags(verb, flags.map, defaultMaps);
+  addBiasFlags(verb, flags.bias, defaultBiases);
+}
+
+CompareOptions compareOptions(const MethodFlags& flags) {
+  CompareOptions options;
+  static_cast<MapChoice&>(options) = mapChoice(flags.map);
+  options.maps = parseMaps(flags.map.maps);
+  for (const Parameterization* map : options.maps) mapSideOf(options, *map);
+  chooseBiases(flags.bias, options);
+  for (const Parameterization* map : options.maps) checkMeaning(options, *map);
+  return options;
+}
+
+}  // namespace gnomon

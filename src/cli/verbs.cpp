@@ -1,0 +1,22 @@
+#include "cli/verbs.h"
+
+namespace gnomon {
+
+// Of the files <name>_verb.cpp.
+Verb compareVerb();
+Verb renderVerb();
+Verb reportVerb();
+Verb fogVerb();
+Verb vsvVerb();
+Verb sceneVerb();
+Verb benchVerb();
+Verb reproduceVerb();
+Verb infoVerb();
+
+const std::vector<Verb>& verbs() {
+  static const std::vector<Verb> all = {compareVerb(), renderVerb(), reportVerb(),    fogVerb(), vsvVerb(),
+                                        sceneVerb(),   benchVerb(),  reproduceVerb(), infoVerb()};
+  return all;
+}
+
+}  // namespace gnomon

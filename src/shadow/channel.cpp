@@ -1,0 +1,85 @@
+#include "shadow/channel.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace gnomon {
+
+using glsl::kChannelBackDepth;
+using glsl::kChannelDepth;
+using glsl::kChannelSecondDepth;
+
+const std::vector<Channel>& channels() {
+  static const std::vector<Channel> all = {
+      {.bit = kChannelDepth,
+       .name = "depth",
+       .pass = ChannelPass::Nearest,
+       .format = VK_FORMAT_D32_SFLOAT,
+       .location = kDepthBuffer,
+       .binding = glsl::kBindMapDepth},
+      {.bit = kChannelSecondDepth,
+       .name = "second-depth",
+       .pass = ChannelPass::Second,
+       .format = VK_FORMAT_R32_SFLOAT,
+       .location = 0,
+       .clear = {.float32 = {1.0f, 0.0f, 0.0f, 0.0f}},
+       .binding = glsl::kBindSecondDepth,
+       .needs = kChannelDepth},
+      {.bit = kChannelBackDepth,
+       .name = "back-depth",
+       .pass = ChannelPass::BackFaces,
+       .format = VK_FORMAT_D32_SFLOAT,
+       .location = kDepthBuffer,
+       .binding = glsl::kBindBackDepth},
+  };
+  return all;
+}
+
+ChannelSet completed(ChannelSet set) {
+  for (const Channel& channel : channels())
+    if ((set & channel.bit) != 0) set |= channel.needs;
+  return set;
+}
+
+std::optional<ChannelSet> parseChannels(const std::string& list) {
+  ChannelSet set = 0;
+  std::string spaced = list;
+  std::ranges::replace(spaced, ',', ' ');
+  std::istringstream words(spaced);
+  for (std::string word; words >> word;) {
+    const auto found = std::ranges::find_if(channels(), [&](const Channel& channel) { return word == channel.name; });
+    if (found == channels().end()) return std::nullopt;
+    set |= found->bit;
+  }
+  return set == 0 ? std::nullopt : std::optional(completed(set));
+}
+
+namespace {
+
+std::string joined(ChannelSet set) {
+  std::string names;
+  for (const Channel& channel : channels())
+    if ((set & channel.bit) != 0) names += (names.empty() ? "" : ", ") + std::string(channel.name);
+  return names;
+}
+
+}  // namespace
+
+std::string channelNames() {
+  return joined(~0);
+}
+
+std::string contentName(ChannelSet set) {
+  switch (set) {
+    case kChannelDepth:
+      return "one layer";
+    case kChannelDepth | kChannelSecondDepth:
+      return "two layers";
+    case kChannelBackDepth:
+      return "back faces";
+    default:
+      return joined(set);
+  }
+}
+
+}  // namespace gnomon
