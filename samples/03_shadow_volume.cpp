@@ -24,7 +24,7 @@ void run(const char* sceneName, const char* path) {
 
   // A grid of columns, each a light ray; the nearest occluder in each; and the bits that follow from those.
   LightOnMap lit(seen, passes, volumeParameterization(),
-                 {.options = {.volumeSize = kSize}, .receiversW = std::vector<glm::dvec3>()});
+                 {.options = {kVolumeSize(kSize)}, .receiversW = std::vector<glm::dvec3>()});
   const std::vector<float> visibility = lit.visibility(atDefaults(findBias("adaptive"), seen));
 
   // So that a white surface as far from the light as the camera has radiance 0.5.

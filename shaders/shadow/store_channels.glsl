@@ -1,7 +1,7 @@
 // How a fragment stores what the channels of its texel hold (shared/channels.glsl): the last that each fragment shader
 // of a map does. What a fragment has to offer is its depth and which triangle of which instance it is of.
 //
-// A colour's location is that of its channel in src/shadow/channel.cpp; one that the pass has no target for goes nowhere.
+// A colour's location is that of its channel in src/shadow/channel.cpp. kStored says which the pass has a target for.
 // Depth itself is the depth buffer's: gl_FragCoord.z, unless the shader writes gl_FragDepth.
 #ifndef GNOMON_STORE_CHANNELS_GLSL
 #define GNOMON_STORE_CHANNELS_GLSL
@@ -11,6 +11,7 @@
 #include "shadow/drawn_slice.glsl"
 
 layout(constant_id = 1) const int kPass = kPassNearest;
+layout(constant_id = 4) const int kStored = 0;  // kChannel* bits
 
 layout(binding = kBindMapDepth) uniform texture2DArray depthSlices;
 
@@ -28,7 +29,7 @@ void storeChannels(DrawnFragment drawn) {
     float first = texelFetch(depthSlices, ivec3(ivec2(gl_FragCoord.xy), drawnSlice()), 0).x;
     if (drawn.depth <= first + tolerance) discard;
   }
-  storedSecondDepth = drawn.depth;
+  if ((kStored & kChannelSecondDepth) != 0) storedSecondDepth = drawn.depth;
 }
 
 #endif

@@ -14,7 +14,7 @@ namespace gnomon::gpu {
 namespace {
 
 // One more wherever the passes below change.
-constexpr int kPassesVersion = 1;
+constexpr int kPassesVersion = 2;
 
 Hash128 keyOf(const std::vector<uint32_t>& spirv, const std::vector<Specialization>& specializations) {
   std::string text = fmt::format("specialized {}", kPassesVersion);
@@ -37,7 +37,8 @@ std::vector<uint32_t> specialize(const std::vector<uint32_t>& spirv,
       .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
       .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
       .RegisterPass(spvtools::CreateDeadBranchElimPass())
-      .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+      .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+      .RegisterPass(spvtools::CreateRemoveUnusedInterfaceVariablesPass());
   std::vector<uint32_t> specialized;
   spvtools::OptimizerOptions options;
   options.set_run_validator(false);  // glslang wrote it; and it knows nothing of the device's scalar layout

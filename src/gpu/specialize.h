@@ -1,6 +1,6 @@
 #pragma once
 // SPIR-V with its specialization constants set for good: what they decide is decided, branches that cannot be
-// taken and functions that nobody calls are gone.
+// taken, functions that nobody calls, and inputs and outputs that nobody reads or writes are gone.
 //
 // A driver does the same at last, but lavapipe inlines every function of a module first: a pipeline of the
 // visibility pass, with all kinds of maps and all biases in it, took it 0.45 s to make. Only control flow is

@@ -41,6 +41,13 @@ ChannelSet completed(ChannelSet set) {
   return set;
 }
 
+ChannelSet writtenBy(ChannelPass pass, ChannelSet set) {
+  ChannelSet written = 0;
+  for (const Channel& channel : channels())
+    if (channel.pass == pass) written |= set & channel.bit;
+  return written;
+}
+
 std::optional<ChannelSet> parseChannels(const std::string& list) {
   ChannelSet set = 0;
   std::string spaced = list;

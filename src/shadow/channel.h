@@ -39,6 +39,9 @@ const std::vector<Channel>& channels();
 // The set with what its channels need: what a map that holds it holds.
 ChannelSet completed(ChannelSet set);
 
+// Those of a set that a pass writes.
+ChannelSet writtenBy(ChannelPass pass, ChannelSet set);
+
 // "depth, second-depth" and the like; nothing where a name is none of the list's, or where there is no name.
 std::optional<ChannelSet> parseChannels(const std::string& list);
 std::string channelNames();

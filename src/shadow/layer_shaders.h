@@ -4,7 +4,7 @@
 //
 // Every shader reads the scene's bindings, the map's uniforms at kBindMap and, as push constants, as much of the front of
 // LayerPush as it needs (shadow/drawn_slice.glsl). Specialization constants: 0 is kMasked, 1 leaves the holes of alpha
-// masks open; 1 is kPass*; 2 is the map's kind (kMap*); 3 is 1 where one pass draws all slices.
+// masks open; 1 is kPass*; 2 is the map's kind (kMap*); 3 is 1 where one pass draws all slices; 4 is the channels that the pass stores.
 
 #include <cstdint>
 

@@ -122,7 +122,8 @@ MapRenderer::Key MapRenderer::keyOf(const Slice& slice, bool masked) const {
           .pass = slice.shaderPass,
           .masked = masked,
           .mapKind = slice.map.kind(),
-          .viewMask = slice.targets.viewMask};
+          .viewMask = slice.targets.viewMask,
+          .stored = writtenBy(slice.pass, slice.map.channels())};
   for (const gpu::ColorTarget& color : slice.targets.colors)
     key.colorFormats.push_back(color.image != nullptr ? color.image->desc().format : VK_FORMAT_UNDEFINED);
   return key;
@@ -137,7 +138,8 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
                          .specializations = {{.id = 0, .value = key.masked ? 1 : 0},
                                              {.id = 1, .value = key.pass},
                                              {.id = 2, .value = key.mapKind},
-                                             {.id = 3, .value = key.viewMask != 0 ? 1 : 0}},
+                                             {.id = 3, .value = key.viewMask != 0 ? 1 : 0},
+                                             {.id = 4, .value = key.stored}},
                          .colorFormats = key.colorFormats,
                          .depthFormat = VK_FORMAT_D32_SFLOAT,
                          .depthCompare = VK_COMPARE_OP_LESS,
@@ -258,7 +260,7 @@ void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, Map
 gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass, SecondLayer method) const {
   gpu::RenderTargets targets;
   for (const Channel& channel : channels()) {
-    if (channel.pass != pass || (map.channels() & channel.bit) == 0) continue;
+    if ((writtenBy(pass, map.channels()) & channel.bit) == 0) continue;
     if (channel.location == kDepthBuffer) {
       targets.depth = &map.image(channel.bit);
       targets.clearDepth = 1.0f;
@@ -302,18 +304,14 @@ void MapRenderer::recordSlices(gpu::Commands& commands, const SceneBuffers& scen
     else
       recordBounds(commands, scene, slice, groupOf);
   };
-  const auto hasChannelOf = [&](ChannelPass pass) {
-    return std::ranges::any_of(channels(), [&](const Channel& channel) {
-      return channel.pass == pass && (map.channels() & channel.bit) != 0;
-    });
-  };
+  const auto writes = [&](ChannelPass pass) { return writtenBy(pass, map.channels()) != 0; };
   for (int first = 0; first < map.layerCount(); first += count) {
-    if (hasChannelOf(ChannelPass::Nearest)) recordPass(first, ChannelPass::Nearest);
-    if (hasChannelOf(ChannelPass::Second)) {
+    if (writes(ChannelPass::Nearest)) recordPass(first, ChannelPass::Nearest);
+    if (writes(ChannelPass::Second)) {
       commands.barrier("the first layer's depth is written -> the second layer tests against it");
       recordPass(first, ChannelPass::Second);
     }
-    if (hasChannelOf(ChannelPass::BackFaces)) recordPass(first, ChannelPass::BackFaces);
+    if (writes(ChannelPass::BackFaces)) recordPass(first, ChannelPass::BackFaces);
   }
 }
 

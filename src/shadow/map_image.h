@@ -71,11 +71,10 @@ class MapRenderer {
     bool masked;
     int mapKind;
     uint32_t viewMask;
+    ChannelSet stored;  // what the pass writes
     std::vector<VkFormat> colorFormats;
     // Or else the rasterizer's own depth is all that is stored.
-    bool needsFragments() const {
-      return masked || !shaders.rasterizedDepth || pass != glsl::kPassNearest || !colorFormats.empty();
-    }
+    bool needsFragments() const { return masked || !shaders.rasterizedDepth || !colorFormats.empty(); }
     bool operator==(const Key&) const = default;
   };
   struct Entry {

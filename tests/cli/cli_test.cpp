@@ -239,9 +239,9 @@ TEST_F(CliTest, AFilesKnobsAreSetByName) {
   writeTextFile(folder_ / "one.glsl", std::string("//! knob: reach texels 0 8 1\n") + lit);
   writeTextFile(folder_ / "two.glsl",
                 std::string("//! knob: reach texels 0 8 1\n//! knob: offset metres 0 9 1\n") + lit);
-  writeTextFile(folder_ / "none.glsl", lit);
+  writeTextFile(folder_ / "plain.glsl", lit);
   const std::string small = " --biases none --size 32 --map-size 32 --repeats 1 --json @/r.json";
-  ASSERT_EQ(run("compare corner --bias-file @/one.glsl --bias-file @/two.glsl --bias-file @/none.glsl --bias-file-knob "
+  ASSERT_EQ(run("compare corner --bias-file @/one.glsl --bias-file @/two.glsl --bias-file @/plain.glsl --bias-file-knob "
                 "reach=2 --bias-file-knob offset=3" +
                 small)
                 .exitCode,
@@ -257,7 +257,7 @@ TEST_F(CliTest, AFilesKnobsAreSetByName) {
   expectMistake("compare corner --bias-file-knob 4", 2, "--bias-file-knob needs a --bias-file");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob 4", 2,
                 "two.glsl has 2 knobs; write NAME=VALUE, NAME one of reach, offset");
-  expectMistake("compare corner --bias-file @/none.glsl --bias-file-knob 4", 2, "none.glsl has no knob");
+  expectMistake("compare corner --bias-file @/plain.glsl --bias-file-knob 4", 2, "plain.glsl has no knob");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob rich=4", 2,
                 "--bias-file-knob rich=4: no such knob; choose from reach, offset");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=much", 2, "'much' is no number");

@@ -1,5 +1,5 @@
-// An engine's own shader: points and normals in the light's frame, and the depth that its map holds for each, to light and
-// shadow by two biases. tests/install/run puts the version and the extensions before it.
+// An engine's own shader: points and normals in the light's frame, and the depth that its map holds for each, to light
+// and shadow by two biases. tests/install/run puts the version and the extensions before it.
 #include "shared/map.glsl"
 #include "shared/bias.glsl"
 

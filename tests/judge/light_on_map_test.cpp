@@ -23,7 +23,7 @@ const std::vector<const Parameterization*>& everyMap() {
 }
 
 MapSetup smallSetup() {
-  return {.side = 64, .options = {.volumeSize = {.alpha = 64, .theta = 64, .phi = 128}}};
+  return {.side = 64, .options = {kVolumeSize({.alpha = 64, .theta = 64, .phi = 128})}};
 }
 
 class LightOnMapTest : public gpu::GpuTest {};

@@ -115,8 +115,8 @@ TEST(Compare, ResultsFollowTheSchema) {
   }
 }
 
-// The cells of one column of a table, by the place of its name in the first line: from there to the next name where cells
-// stand at the left, and from the name before to there where they stand at the right.
+// The cells of one column of a table, by the place of its name in the first line: from there to the next name where
+// cells stand at the left, and from the name before to there where they stand at the right.
 enum class Stands { Left, Right };
 std::vector<std::string> cellsOf(const std::string& table, const std::string& name, Stands stands) {
   std::istringstream lines(table);

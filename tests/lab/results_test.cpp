@@ -7,6 +7,7 @@
 #include "lab/fog/fog_report.h"
 #include "lab/results/results_file.h"
 #include "tests/gpu_fixture.h"
+#include "vsv/volume_parameterization.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -69,7 +70,7 @@ TEST(ResultsFile, AComparisonComesBackAsItWasWritten) {
   options.biases = parseBiases("constant,adaptive");
   options.filters = parseFilters("none,bilinear");
   options.mapSide = 64;
-  options.mapOptions.volumeSize = {.alpha = 64, .theta = 64, .phi = 128};
+  options.mapOptions.set(kVolumeSize({.alpha = 64, .theta = 64, .phi = 128}));
   options.tune = true;
   options.repeats = 1;
   options.outDir = folder.path();
@@ -109,7 +110,7 @@ TEST(ResultsFile, AMediumComesBackAsItWasWritten) {
                      .repeats = 1,
                      .motion = FogMotion{.frames = 2, .offsetW = {0.2f, 0.0f, 0.0f}},
                      .outDir = folder.path() / "out"};
-  options.map.volumeSize = {.alpha = 64, .theta = 64, .phi = 128};
+  options.map.set(kVolumeSize({.alpha = 64, .theta = 64, .phi = 128}));
   const FogResult result = runFog(session, options);
   const MediaResults read = expectSameWhenRead<MediaResults>(fogJson(session, options, result, "gnomon fog grate"));
   ASSERT_EQ(read.rows.size(), 3u);

@@ -3,6 +3,7 @@
 // for a channel of numbers, in a copy of the shaders.
 #include "base/file.h"
 #include "gpu/shader_compiler.h"
+#include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
 #include "omni_fixture.h"
 #include "tests/base/temporary_folder.h"
@@ -36,10 +37,10 @@ TEST_F(DrawnTriangle, IsTheFirstThatTheTexelsRayHits) {
   const test::TemporaryFolder folder;
   numberFragments(folder.path() / "shaders");
   const std::pair<const Parameterization&, MapOptions> kinds[] = {
-      {cubeParameterization(), {.cubeDepth = CubeDepth::Hyperbolic}},
-      {cubeParameterization(), {.cubeDepth = CubeDepth::Radial}},
-      {paraboloidParameterization(), {.paraboloidRaster = ParaboloidRaster::Exact}},
-      {paraboloidParameterization(), {.paraboloidRaster = ParaboloidRaster::Tessellated}}};
+      {cubeParameterization(), {kCubeDepth(CubeDepth::Hyperbolic)}},
+      {cubeParameterization(), {kCubeDepth(CubeDepth::Radial)}},
+      {paraboloidParameterization(), {kParaboloidRaster(ParaboloidRaster::Exact)}},
+      {paraboloidParameterization(), {kParaboloidRaster(ParaboloidRaster::Tessellated)}}};
   for (const char* scene : {"atrium", "sheets"}) {
     const test::World world = test::openWorld(device(), findGeneratedScene(scene)->make());
     for (const auto& [kind, options] : kinds) {

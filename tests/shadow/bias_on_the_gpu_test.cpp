@@ -1,8 +1,8 @@
 // shared/bias.glsl gives the same verdicts on both processors, for every bias on every parameterization.
 //
-// A verdict is one bit, and a random depth is far from where it turns. So the depth is searched at which the CPU's verdict
-// turns from shadow to light, to neighbouring floats, and the GPU is asked for both: an ulp anywhere in a bias, in a
-// projection, a ray, a depth or a distance, is a wrong verdict.
+// A verdict is one bit, and a random depth is far from where it turns. So the depth is searched at which the CPU's
+// verdict turns from shadow to light, to neighbouring floats, and the GPU is asked for both: an ulp anywhere in a bias,
+// in a projection, a ray, a depth or a distance, is a wrong verdict.
 #include "lab/core/maps.h"
 #include "omni/cube_map.h"
 #include "vsv/volume_parameterization.h"
@@ -93,10 +93,10 @@ std::optional<Turn> findTurn(const ShadowMap& map, BiasQuery query) {
 
 // How far from where the CPU's verdict turns the GPU's may turn, in depth.
 //
-// Where a bias subtracts sums that have a factor in common the driver's optimizer takes it out (docs/shared_glsl.md), and
-// the difference rounds otherwise, by ulps of what is subtracted. receiver-plane and normal-offset subtract what two rays
-// say; where depth is linear in the radius r, (r - near) / (far - near), slope and the adaptive three subtract such depths.
-// Measured on lavapipe: more than 8 * 2^-24, none beyond 16. Everything else is exact.
+// Where a bias subtracts sums that have a factor in common the driver's optimizer takes it out (docs/shared_glsl.md),
+// and the difference rounds otherwise, by ulps of what is subtracted. receiver-plane and normal-offset subtract what
+// two rays say; where depth is linear in the radius r, (r - near) / (far - near), slope and the adaptive three subtract
+// such depths. Measured on lavapipe: more than 8 * 2^-24, none beyond 16. Everything else is exact.
 //
 // A shadow volume's columns stand on sin, cos and atan2, which turn an angle by up to 8e-6 (epipolar_map_test.cpp).
 float depthTolerance(const ShadowMap& map, int method, bool lavapipe) {

@@ -207,8 +207,8 @@ TEST_P(Bias, ClampingAndEhmLightWhateverAdaptiveLightsAndMore) {
   EXPECT_NEAR(share(adaptive), 2.0 / 3.0, 0.02);  // up to one epsilon of -1 to 2
   // Of the last third: every other plane's F' lies behind the receiver, which clamping does not take.
   EXPECT_NEAR(share(clampedOnly), 1.0 / 6.0, 0.02);
-  // Ehm's epsilon is 1 + tan^2 of the angle a times as large, and a is even up to 1.55: of s from 1 to 2 epsilons those with
-  // a >= atan(sqrt(s - 1)), whose mean is pi / 2 - 1.
+  // Ehm's epsilon is 1 + tan^2 of the angle a times as large, and a is even up to 1.55: of s from 1 to 2 epsilons those
+  // with a >= atan(sqrt(s - 1)), whose mean is pi / 2 - 1.
   EXPECT_NEAR(share(ehmOnly), (1.0 - (std::numbers::pi / 2.0 - 1.0) / 1.55) / 3.0, 0.02);
 }
 

@@ -1,5 +1,5 @@
-// What planar_map_test.cpp and bias_on_the_gpu_test.cpp evaluate on both sides. The map itself is the buffer that shared/map.glsl
-// declares; in C++ it is the argument.
+// What planar_map_test.cpp and bias_on_the_gpu_test.cpp evaluate on both sides. The map itself is the buffer that
+// shared/map.glsl declares; in C++ it is the argument.
 #ifndef GNOMON_TEST_MAP_FUNCTIONS_GLSL
 #define GNOMON_TEST_MAP_FUNCTIONS_GLSL
 

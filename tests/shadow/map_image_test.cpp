@@ -9,9 +9,9 @@
 namespace gnomon {
 namespace {
 
-// Vertices stand on a grid of 1/256 texel, so that an edge is drawn up to sqrt(2) / 512 of a texel from where rays meet it:
-// texels whose centre is no farther from an edge may hold what lies on the other side of it. Of those that an edge crosses
-// these are twice that, 0.0055; where it crosses no more than one texel in ten, one texel in 1800 of all.
+// Vertices stand on a grid of 1/256 texel, so that an edge is drawn up to sqrt(2) / 512 of a texel from where rays meet
+// it: texels whose centre is no farther from an edge may hold what lies on the other side of it. Of those that an edge
+// crosses these are twice that, 0.0055; where it crosses no more than one texel in ten, one texel in 1800 of all.
 constexpr double kEdgeReach = 1.0 / 256.0;
 constexpr size_t kOffAtEdges = 1800;
 
@@ -104,8 +104,8 @@ TEST_F(MapImageTest, EveryTexelHoldsTheFirstHitOfItsRayInInstances) {
   compareWithRays("crowd:20000", spotParameterization());
 }
 
-// A closed solid seen from outside has a front face before every back face, and the rasterizer covers the texels within an
-// outline with the one as with the other: leaving the back faces out changes no texel.
+// A closed solid seen from outside has a front face before every back face, and the rasterizer covers the texels within
+// an outline with the one as with the other: leaving the back faces out changes no texel.
 TEST_F(MapImageTest, CullingSolidsChangesNoTexel) {
   const test::Rendered all = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::None);
   const test::Rendered culled = test::render(device(), "contact", spotParameterization(), 128, 256, CullMode::Solids);

@@ -1,5 +1,6 @@
 #pragma once
-// A receiver on a plane at some angle to the light, and what a map would hold of that very plane in the receiver's texel.
+// A receiver on a plane at some angle to the light, and what a map would hold of that very plane in the receiver's
+// texel.
 
 #include "map_fixture.h"
 

@@ -139,7 +139,8 @@ double filledByTheNearerHalf(const SeenScene& seen, const FittedMap& fitted) {
 }
 
 // The 80% rule, with the focus that warp.cpp chooses: half of the receivers before the line. W would vary more than
-// kMostWarp in a view along the floor, half of whose pixels see a twentieth of its length; looking down at it, it does not.
+// kMostWarp in a view along the floor, half of whose pixels see a twentieth of its length; looking down at it, it does
+// not.
 TEST(Tsm, HalfOfWhatIsSeenFillsFourFifthsOfTheMap) {
   const Camera down = lookAt("down at the floor", {0.2f, 6.0f, 55.0f}, {0.2f, 0.0f, 45.0f}, 0.7f);
   for (const double azimuth : {0.0, 90.0, 140.0}) {

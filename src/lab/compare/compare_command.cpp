@@ -103,7 +103,7 @@ std::string rowCommand(const SetupOptions& setup, const CompareOptions& options,
   std::erase_if(own.userBiases, [&](const auto& user) { return &user->method != &bias; });
   own.tune = row.tuning.has_value() && row.isSum;
   if (row.tuning && !row.isSum) {
-    own.knobs.clear();
+    std::erase_if(own.knobs, [&](const KnobValue& value) { return has(knobsOf(bias), value.knob); });
     for (const Knob& knob : knobsOf(bias))
       for (const Param& param : row.params)
         if (param.name == knob.name && row.isKnob(param))
