@@ -140,7 +140,9 @@ VkPipeline createGraphicsPipeline(const Device& device, const GraphicsDesc& desc
   target.srcColorBlendFactor = target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;  // MIN ignores the factors
   target.srcAlphaBlendFactor = target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
   target.colorBlendOp = target.alphaBlendOp = VK_BLEND_OP_MIN;
-  const std::vector<VkPipelineColorBlendAttachmentState> targets(desc.colorFormats.size(), target);
+  std::vector<VkPipelineColorBlendAttachmentState> targets(desc.colorFormats.size(), target);
+  for (size_t i = 0; i < targets.size(); ++i)
+    if (desc.colorFormats[i] == VK_FORMAT_UNDEFINED) targets[i] = {};  // nothing is written where there is none
   VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
   blend.attachmentCount = static_cast<uint32_t>(targets.size());
   blend.pAttachments = targets.data();

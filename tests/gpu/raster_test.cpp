@@ -90,6 +90,39 @@ TEST_F(RasterTest, ATriangleFillsColourAndDepth) {
   }
 }
 
+// The program's first output is of another type than any target, and gone with the constant that decides it.
+TEST_F(RasterTest, AColourTargetMayBeAbsentAndPushConstantsChangeBetweenDraws) {
+  const Image color = colorImage(VK_FORMAT_R32G32B32A32_SFLOAT);
+  const ShaderSource fragment = inlineShader("t/two_outputs.frag.glsl",
+                                             "layout(constant_id = 0) const int kNumbers = 1;\n"
+                                             "layout(location = 0) out uint number;\n"
+                                             "layout(location = 1) out vec4 color;\n"
+                                             "layout(scalar, push_constant) uniform Push { vec4 pushedColor; };\n"
+                                             "void main() {\n"
+                                             "  if (kNumbers == 1) number = 7u;\n"
+                                             "  color = pushedColor;\n"
+                                             "}\n");
+  const GraphicsProgram program(device(), {.name = "second colour alone",
+                                           .vertex = vertex_,
+                                           .fragment = fragment,
+                                           .specializations = {{.id = 0, .value = 0}},
+                                           .colorFormats = {VK_FORMAT_UNDEFINED, VK_FORMAT_R32G32B32A32_SFLOAT}});
+  Positions values = halfTriangle(0.5f);
+  for (const glm::vec4& position : halfTriangle(0.5f))
+    values.emplace_back(-position.x, -position.y, position.z, 1.0f);  // the lower right half
+  const Buffer buffer = positions(values);
+  const glm::vec4 red(1, 0, 0, 1), blue(0, 0, 1, 1);
+  render({.colors = {{}, {&color, VkClearColorValue{{9.0f, 9.0f, 9.0f, 9.0f}}}}}, [&](Commands& commands) {
+    commands.bind(program, asPush(red), {{0, buffer}});
+    commands.draw(3, 1, 0, 0);
+    commands.push(program, asPush(blue));
+    commands.draw(3, 1, 3, 0);
+  });
+  const auto colors = downloadAs<glm::vec4>(device(), color);
+  for (uint32_t y = 0; y < kSize; ++y)
+    for (uint32_t x = 0; x < kSize; ++x) EXPECT_EQ(colors[y * kSize + x], x + y >= 15 ? blue : red) << x << ", " << y;
+}
+
 TEST_F(RasterTest, WhatIsNotClearedIsKept) {
   const Image color = colorImage(VK_FORMAT_R32G32B32A32_SFLOAT);
   const GraphicsProgram program(

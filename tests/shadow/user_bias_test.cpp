@@ -75,8 +75,8 @@ TEST_F(UserBiasTest, MistakesNameFileAndLine) {
   expectMistake("\n//! nmae: x\n", "mine.glsl:2: ");
   expectMistake("\n//! layers: 2\n",
                 "mine.glsl:2: a bias asks for channels, no longer for layers; for 1 write nothing");
-  expectMistake("//! channels: depth, ids\n",
-                "mine.glsl:1: 'depth, ids' is no list of channels; choose from depth, second-depth, back-depth");
+  expectMistake("//! channels: depth, colour\n",
+                "mine.glsl:1: 'depth, colour' is no list of channels; choose from depth, second-depth, back-depth");
   expectMistake("//! channels:\n", "'' is no list of channels");
   expectMistake("//! knob: a feet 0 1 0.5\n", "'feet' is no unit");
   expectMistake("//! knob: a metres 1 0 0.5\n", "mine.glsl:1: the knob is not understood");

@@ -12,6 +12,7 @@
 #include "lab/picture/flip.h"
 #include "lab/picture/pictures.h"
 #include "lab/picture/unfold.h"
+#include "vsv/shadow_volume.h"
 
 #include <algorithm>
 #include <cmath>

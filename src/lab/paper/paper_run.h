@@ -4,6 +4,7 @@
 
 #include "lab/paper/reproduce.h"
 #include "shadow/filter.h"
+#include "vsv/shadow_volume.h"
 
 #include <functional>
 #include <memory>
