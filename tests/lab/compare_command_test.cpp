@@ -111,7 +111,7 @@ TEST(RowCommand, AUsersBiasIsNamedWithItsFile) {
   row.map = "cube";
   row.bias = "mine";
   EXPECT_EQ(rowCommand({.scene = "atrium"}, options, row),
-            "gnomon compare atrium --maps cube --bias-file 'my dir/mine.glsl' --biases mine --bias-file-knob 0.75");
+            "gnomon compare atrium --maps cube --bias-file 'my dir/mine.glsl' --biases mine --bias-file-knob offset=0.75");
   row.bias = "none";
   EXPECT_EQ(rowCommand({.scene = "atrium"}, options, row), "gnomon compare atrium --maps cube --biases none");
 }

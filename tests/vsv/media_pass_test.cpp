@@ -319,6 +319,17 @@ TEST(MediaLights, PointsAndSpotsAreTakenAndSunsAreNot) {
   EXPECT_EQ(mediaLight(light).coneCos, -1.0);
 }
 
+TEST(Integrators, HaveOneBaselineAndOneThatStandsForThoseThatReadTheSame) {
+  EXPECT_EQ(std::ranges::count_if(integrators(), &Integrator::isBaseline), 1);
+  EXPECT_STREQ(baselineIntegrator().name, "march");
+  for (const Integrator::Reads reads : {Integrator::Reads::Bits, Integrator::Reads::Depths})
+    EXPECT_EQ(std::ranges::count_if(integrators(),
+                                    [&](const Integrator& i) { return i.reads == reads && i.standsInDensity; }),
+              1);
+  EXPECT_STREQ(integratorInDensity(findIntegrator("popcount")).name, "bits");
+  EXPECT_STREQ(integratorInDensity(findIntegrator("march")).name, "march");
+}
+
 TEST(Integrators, HaveNames) {
   for (const char* name : {"runs", "bits", "popcount", "march"}) EXPECT_STREQ(findIntegrator(name).name, name);
   EXPECT_THROW(findIntegrator("walk"), UsageError);
