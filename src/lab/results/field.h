@@ -10,8 +10,8 @@
 //     }
 //   };
 //
-// From that list it is written and read back (results_file.h), shown by the terminal's table and by the page, accepted by
-// --fail-if, and held against docs/results.md. A function in place of a member is written and not read.
+// From that list it is written and read back (results_file.h), shown by the terminal's table and by the page, accepted
+// by --fail-if, and held against docs/results.md. A function in place of a member is written and not read.
 
 #include <functional>
 #include <optional>
