@@ -1,6 +1,6 @@
 #pragma once
-// How near a point light the scene comes, and how far it reaches: the ends of depth of maps that look
-// everywhere.
+// Distances from a point light to the nearest and the farthest caster: the near and far ends of maps that cover all
+// directions.
 
 #include "scene/scene.h"
 

@@ -1,4 +1,4 @@
-// A bias of one's own, to be scored beside all the others:
+// A user-defined bias, to be scored beside the built-in ones:
 //
 //   gnomon compare atrium --bias-file samples/my_bias.glsl --tune
 //

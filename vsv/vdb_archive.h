@@ -1,5 +1,5 @@
 #pragma once
-// Writing .vdb files, and what OpenVDB says when it fails: for the .cpp files that include OpenVDB anyway.
+// Writes .vdb files, and passes on OpenVDB's error messages. For the .cpp files that include OpenVDB anyway.
 
 #include "base/error.h"
 #include "base/file.h"

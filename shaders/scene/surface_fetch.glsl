@@ -1,4 +1,4 @@
-// What a pixel sees, from the triangle its G-buffer entry names: the point, its plane, its material and uv.
+// Fetches a pixel's surface from its G-buffer triangle: the point, its plane, its material and uv.
 #ifndef GNOMON_SURFACE_FETCH_GLSL
 #define GNOMON_SURFACE_FETCH_GLSL
 

@@ -1,5 +1,4 @@
-// The methods and their parameters, without the decisions (bias.glsl), so that a change of a decision rebuilds no C++
-// but tests.
+// The biases' ids and parameters, without their code (bias.glsl), so that a change to a bias rebuilds no C++ but tests.
 #ifndef GNOMON_BIAS_PARAMS_GLSL
 #define GNOMON_BIAS_PARAMS_GLSL
 

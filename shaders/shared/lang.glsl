@@ -1,5 +1,5 @@
-// The glue that lets one text be GLSL and C++: the only file with #ifdef __cplusplus.
-// The dialect that all three compilers accept is in docs/shared_glsl.md.
+// Macros that make one source both GLSL and C++: the only file with #ifdef __cplusplus. The dialect that all three
+// compilers accept is in docs/shared_glsl.md.
 #ifndef GNOMON_LANG_GLSL
 #define GNOMON_LANG_GLSL
 

@@ -1,4 +1,4 @@
-// What the shaders know of a scene: the tables SceneBuffers (src/scene/scene_buffers.h) fills.
+// The scene as the shaders see it: tables filled by SceneBuffers (src/scene/scene_buffers.h).
 #ifndef GNOMON_SCENE_GLSL
 #define GNOMON_SCENE_GLSL
 

@@ -1,5 +1,5 @@
-// Triangles that may be drawn with straight edges: what cut_for_paraboloid.comp.glsl finds for a layer and the draw after it reads,
-// at the same bindings as bounded_triangle.glsl and in the same room.
+// Triangles that may be drawn with straight edges: what cut_for_paraboloid.comp.glsl finds for a layer and the draw
+// after it reads, at the same bindings as bounded_triangle.glsl and in the same buffer.
 #ifndef GNOMON_STRAIGHT_TRIANGLE_GLSL
 #define GNOMON_STRAIGHT_TRIANGLE_GLSL
 

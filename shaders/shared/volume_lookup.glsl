@@ -1,4 +1,5 @@
-// Which voxel of its column decides whether a receiver is lit: the biases of a shadow volume, which knows one bit a voxel and no depths.
+// The biases of a shadow volume, which has one bit a voxel and no depths: they choose the voxel that decides whether a
+// receiver is lit.
 // Dou, Yan, Kerzner, Dai, Wyman, "Adaptive Depth Bias for Shadow Maps", JCGT 3(4), 2014, section 3.3, Algorithm 2.
 //
 //   none       the voxel that holds the receiver

@@ -1,6 +1,7 @@
-// The nearest occluder of a column of a shadow volume, as alpha, from what a map of the same light stores. Two kinds of map: the columns'
-// own, where each column's ray has met the scene itself, and any other, in which the ray is looked up. There a column is hidden from where the
-// map's depth along the ray is what the texel stores: the very answer of that map, without bias, for every point of the column.
+// The nearest occluder of a column of a shadow volume, as an alpha, from a map of the same light. There are two kinds
+// of source: the columns' own map, rasterized with one ray-triangle test a column, and any other map, in which the
+// column's ray is looked up. In the latter the column is occluded from where the map's depth along the ray equals the
+// stored depth: exactly that map's shadow test, without bias, for every point of the column.
 #ifndef GNOMON_VOLUME_SOURCE_GLSL
 #define GNOMON_VOLUME_SOURCE_GLSL
 

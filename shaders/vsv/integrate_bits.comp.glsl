@@ -1,5 +1,5 @@
-// Light scattered towards the eye by a homogeneous medium, with visibility from the bits of a shadow volume: all of a view ray's bits lie in
-// one row of texels, and what a stretch of it weighs is the difference of the running integral at its ends.
+// In-scattered light of a homogeneous medium, with visibility from the bits of a shadow volume. A view ray's bits are
+// one row of texels, and a run of lit bits contributes the difference of the running integral at its ends.
 #include "shared/map.glsl"
 #include "shared/media_pass.glsl"
 #include "shared/volume.glsl"

@@ -1,4 +1,4 @@
-// Diffuse surfaces in a medium: the light's own radiance by way of the surface, attenuated from the light to it and from it to the eye.
+// Diffuse surfaces in a medium: the light is attenuated from the light to the surface, and from the surface to the eye.
 #include "shared/media_pass.glsl"
 #include "shared/shade.glsl"
 

@@ -1,6 +1,6 @@
 #pragma once
-// Image files through OpenImageIO: EXR for data (32-bit float, linear), PNG for people (8-bit).
-// Rows run from the top down, channels are interleaved.
+// Image files through OpenImageIO: EXR for data (32-bit float, linear), PNG for viewing (8 bits). Rows run from top to
+// bottom, channels are interleaved.
 
 #include <cstdint>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #pragma once
-// One command buffer, recorded, submitted and waited for. A pass is one call that names its program and
-// everything it binds; between two passes stands one barrier that says who wrote and who reads.
+// One command buffer, recorded, submitted and waited for. A pass is one call with its program and everything that is
+// bound; between two passes there is one barrier, with a text that says who wrote and who reads.
 
 #include "gpu/program.h"
 

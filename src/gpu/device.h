@@ -1,5 +1,5 @@
 #pragma once
-// The Vulkan 1.3 device: one instance, one queue, the features Gnomon needs, the messages validation gave.
+// The Vulkan 1.3 device: one instance, one queue, the features Gnomon needs, and the messages of the validation layers.
 //
 // Choice: --device NAME takes the first device whose name contains NAME (case ignored); without it the first
 // discrete GPU, then integrated, then a CPU device (lavapipe). GNOMON_DEVICE in the environment acts as

@@ -65,7 +65,7 @@ const Stage kStages[] = {
 EShLanguage stageOf(const std::string& path) {
   for (const Stage& stage : kStages)
     if (path.ends_with(stage.suffix)) return stage.language;
-  throw fileError(path, "its name does not tell a shader stage",
+  throw fileError(path, "its name does not say which shader stage it is",
                   "end it in .vert.glsl, .frag.glsl, .comp.glsl, .tesc.glsl, .tese.glsl or .geom.glsl");
 }
 
@@ -193,7 +193,8 @@ std::vector<uint32_t> compileWithGlslang(const std::string& path, EShLanguage st
 void setShaderDirectory(const fs::path& folder) {
   std::error_code failure;
   if (!fs::is_directory(folder, failure))
-    throw fileError(folder.string(), "is no folder of shaders", "give the path of a copy of Gnomon's shaders folder");
+    throw fileError(folder.string(), "is not a folder of shaders",
+                    "give the path of a copy of Gnomon's shaders folder");
   std::lock_guard lock(shaderDirectoryMutex);
   shaderDirectory = folder;
 }

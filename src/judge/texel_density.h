@@ -1,6 +1,5 @@
 #pragma once
-// How many texels of a map fall on a square metre of what is seen: where a map is fine and where it is
-// coarse.
+// Texel density: how many texels of a map fall on a square metre of visible surface.
 
 #include "shadow/parameterization.h"
 #include "truth/receivers.h"

@@ -150,11 +150,12 @@ WarpedPlane warpAlongAxis(Warp warp, const WarpInput& input) {
   const Extent extent = extentAlong(axis.t, input.points);
   // The warp fades out as the light turns to the view; its whole effect is then below a texel.
   if (axis.sinAngle < 1.0 / input.side || extent.length() <= 0.0)
-    return {.note = fmt::format("{}: the light shines along the view, no warp", kWarp.text(warp))};
+    return {.note = fmt::format("{}: not applied, the light shines along the view direction", kWarp.text(warp))};
   double n = warp == Warp::Lispsm ? lispsmDistance(input, axis) : tsmDistance(input, axis, extent);
   if (!std::isfinite(n))
-    return {.note = fmt::format("{}: the nearer half of what is seen fills 80% of the map without a warp, no warp",
-                                kWarp.text(warp))};
+    return {.note =
+                fmt::format("{}: not applied, the nearer half of the visible receivers already fills 80% of the map",
+                            kWarp.text(warp))};
   // Where it is nearer W would vary by more over the points alone; the square is a texel longer, and so its
   // bound is found by trying, in steps that lose at most 5%.
   const double wanted = n;
@@ -167,9 +168,11 @@ WarpedPlane warpAlongAxis(Warp warp, const WarpInput& input) {
     if (!filled) continue;
     return {.clipFromPlane = *filled,
             .warped = true,
-            .note = n > wanted ? fmt::format("{}: weakened, W may vary {:g} times", kWarp.text(warp), kMostWarp) : ""};
+            .note = n > wanted ? fmt::format("{}: weakened, so that texel size varies at most {:g} times",
+                                             kWarp.text(warp), kMostWarp)
+                               : ""};
   }
-  return {.note = fmt::format("{}: what is seen is too narrow to warp, no warp", kWarp.text(warp))};
+  return {.note = fmt::format("{}: not applied, the visible receivers are too narrow", kWarp.text(warp))};
 }
 
 // The camera as PSM has it, moved back by `back` metres, with a view frustum about what the first one sees:
@@ -240,16 +243,16 @@ WarpedPlane warpPsm(const WarpInput& input) {
     if (!filled) continue;
     return {.clipFromPlane = *filled,
             .warped = true,
-            .note = i == 0 ? "" : fmt::format("psm: the virtual camera stands {:.3g} m behind the camera", back)};
+            .note = i == 0 ? "" : fmt::format("psm: the virtual camera is {:.3g} m behind the camera", back)};
   }
-  return {.note = "psm: the light stands among what the camera sees, no warp"};
+  return {.note = "psm: not applied, the light is among the visible receivers"};
 }
 
 }  // namespace
 
 WarpedPlane warpPlane(Warp warp, const WarpInput& input) {
   if (input.receiversW.empty() || input.points.empty())
-    return {.note = fmt::format("{}: the camera sees nothing that faces the light, no warp", kWarp.text(warp))};
+    return {.note = fmt::format("{}: not applied, no visible surface faces the light", kWarp.text(warp))};
   return warp == Warp::Psm ? warpPsm(input) : warpAlongAxis(warp, input);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Planes across a light's axis: what a planar map must cover, how its texels snap, between which depths its
-// casters and receivers lie.
+// Fitting in a plane perpendicular to the light's axis: what a planar map must cover, how its texels snap, and the
+// depth range of its casters and receivers.
 //
 // A ray of the light is a point h of the projective plane: (x, y, 1) of the light's frame without
 // perspective, (x, y, depth) with. A layer is a matrix on that plane, clipFromPlane: (X, Y, W) = M h covers

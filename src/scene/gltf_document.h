@@ -1,6 +1,6 @@
 #pragma once
-// A glTF file between its bytes and a Scene: the container taken apart, the JSON checked and cut down to what
-// Gnomon reads, and only then handed to tinygltf. Internal to the loader.
+// The first stage of loading glTF: unpacks the container, checks the JSON, removes what Gnomon does not read, and only
+// then calls tinygltf. Internal to the loader.
 
 #include <cstdint>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #pragma once
-// A parameter of a bias or a filter, as their lists declare it. Flags, reports, --help and docs derive from it. Its value
-// stands at its own place in the list: knobs[i] of glsl::BiasParams or glsl::FilterParams.
+// A parameter of a bias or a filter, as their lists declare it. Flags, reports, --help and docs derive from it. The
+// i-th in the list has its value in knobs[i] of glsl::BiasParams or glsl::FilterParams.
 
 #include <string>
 

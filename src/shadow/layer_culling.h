@@ -1,6 +1,6 @@
 #pragma once
-// What of a scene some layers may show, so that the rest is not sent to them: whole draws, and of
-// large draws the parts that SceneBuffers cuts them in. Nothing that a layer shows is left out.
+// Culling for a map's layers: whole draws, and the parts that SceneBuffers cuts large draws into. Conservative: nothing
+// that a layer shows is left out.
 
 #include "scene/scene_buffers.h"
 #include "shadow/parameterization.h"

@@ -1,6 +1,6 @@
 #pragma once
-// A shadow map on the GPU: for each of its channels (shadow/channel.h) an array of slices, drawn slice by slice by the
-// shaders that the parameterization gives, once for each pass that writes one of them.
+// A shadow map on the GPU: one array image for each of its channels (shadow/channel.h). It is drawn slice by slice with
+// the parameterization's shaders, once for each pass that writes one of the channels.
 
 #include "shadow/bounded_draws.h"
 #include "shadow/channel.h"

@@ -1,6 +1,7 @@
 #pragma once
-// What a light meets first along each of its rays, drawn on a device: the depths of a shadow map (map_image.h) or
-// the bits of a shadow volume (vsv/shadow_volume.h). Whoever lights a picture asks here and need not know which.
+// The first occluder along each of a light's rays, rendered on a device: the depths of a shadow map (map_image.h) or
+// the bits of a shadow volume (vsv/shadow_volume.h). Code that lights a picture uses this interface and need not know
+// which.
 
 #include "gpu/commands.h"
 #include "scene/gbuffer.h"

@@ -1,7 +1,7 @@
 #pragma once
-// A parameterization, as the rest of Gnomon sees it: it fits itself to a scene and a light, and draws its
-// layers. Its mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in
-// shaders/shared/map.glsl, and a FittedMap carries the numbers those functions read.
+// The interface of a parameterization: it fits itself to a scene and a light, and says how its layers are drawn. Its
+// mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in shaders/shared/map.glsl, and a
+// FittedMap carries the numbers those functions read.
 //
 // Spot and directional maps are in planar/, cube and paraboloid maps in omni/, the shadow volume in vsv/; the list of
 // all is in lab/core/maps.h.

@@ -1,5 +1,5 @@
 #pragma once
-// Why a shadow map is wrong at a pixel, by exact rays.
+// Labels each wrong pixel of a shadow map with the reason, by ray tracing.
 //
 //   agree        prediction = truth
 //   acne         predicted shadow where there is light, and the surface is continuous, seen from the light,
@@ -11,8 +11,8 @@
 //   edge_light   predicted light where there is shadow, and no leak
 //   uncovered    the map does not cover the pixel
 //
-// Acne and leak are what a bias is answerable for. "Before" means by more than the end margin of the truth's
-// rays.
+// Acne and leak are bias errors; edges come from the map's resolution. "Before" means by more than the end margin of
+// the ground truth's rays.
 
 #include "truth/continuity.h"
 #include "truth/visibility.h"

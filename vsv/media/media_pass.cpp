@@ -52,7 +52,7 @@ int32_t bitsIntegrator(Integrator integrator) {
 Integrator parseIntegrator(const std::string& name) {
   const auto found = std::ranges::find(kIntegratorNames, name);
   if (found == kIntegratorNames.end())
-    throw UsageError(fmt::format("--integrators {}: choose of {}", name, fmt::join(kIntegratorNames, ", ")));
+    throw UsageError(fmt::format("--integrators {}: choose from {}", name, fmt::join(kIntegratorNames, ", ")));
   return static_cast<Integrator>(found - kIntegratorNames.begin());
 }
 
@@ -63,8 +63,8 @@ const char* integratorName(Integrator integrator) {
 MediaLightSource mediaLight(const Light& light) {
   if (light.type == LightType::Directional)
     throw WorldError(
-        fmt::format("the light '{}' is directional, and shafts are made of point and spot lights; choose another with "
-                    "--light",
+        fmt::format("the light '{}' is directional, and gnomon fog supports point and spot lights only; choose another "
+                    "with --light",
                     light.name));
   MediaLightSource source{.positionW = glm::dvec3(light.positionW), .intensity = light.color * light.intensity};
   if (light.type == LightType::Spot) {

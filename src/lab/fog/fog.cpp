@@ -36,7 +36,8 @@ Params paramsOf(const MediaMethod& method, const FogOptions& options, size_t lig
   if (!march) {
     params.push_back({"vsv_source", options.map.text(kVolumeSource)});
     params.push_back({"vsv_fit", options.map.text(kVolumeFit)});
-    if (options.map.get(kVolumeSource) == VolumeSource::Resample) params.push_back({"cube_size", int64_t{options.mapSide}});
+    if (options.map.get(kVolumeSource) == VolumeSource::Resample)
+      params.push_back({"cube_size", int64_t{options.mapSide}});
   }
   params.push_back({"cull", cullModeName(options.cull)});
   return params;

@@ -1,5 +1,5 @@
 #pragma once
-// How good a way to integrate is, what it costs, and how it stands against a march.
+// Errors and costs of an integrator, and how it compares with ray marching.
 
 #include "lab/core/method.h"
 #include "lab/fog/fog_methods.h"

@@ -1,6 +1,6 @@
 #pragma once
-// Where the marks of the report's plot stand: cost to the right (linear or logarithmic), error upwards
-// (logarithmic, with a strip of its own for 0 below). In the units of an SVG's viewBox, y down.
+// Positions of the marks in the report's plot: cost to the right (linear or logarithmic), error upwards (logarithmic,
+// with a separate strip for 0 below). In the units of an SVG's viewBox, y down.
 //
 //   10% -|        o none
 //        |

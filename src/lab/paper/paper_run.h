@@ -1,6 +1,5 @@
 #pragma once
-// What running the figures of a paper shares: scenes and comparisons, panels and their numbers, frames timed
-// in rounds.
+// Shared by the papers' figures: opening scenes, running comparisons, panels and their numbers, frames timed in rounds.
 
 #include "lab/paper/reproduce.h"
 #include "shadow/filter.h"

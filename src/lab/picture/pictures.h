@@ -1,6 +1,6 @@
 #pragma once
-// Pictures for people: label maps with a legend, visibility in grey, stored depth. Colours are from the
-// palette of Okabe and Ito, "Color Universal Design" (2008), and differ in lightness too.
+// Pictures for viewing: labels with a legend, visibility in grey, stored depth. Colours are from the palette of Okabe
+// and Ito, "Color Universal Design" (2008), and differ in lightness too.
 
 #include "base/image.h"
 #include "truth/labels.h"

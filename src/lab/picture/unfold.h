@@ -1,5 +1,5 @@
 #pragma once
-// A map of many layers as one picture, and how evenly its texels look around.
+// A map's images unfolded into one picture, and the solid angles of its texels.
 
 #include "base/image.h"
 #include "shadow/parameterization.h"

@@ -1,5 +1,5 @@
 #pragma once
-// How a field of results.json is declared. Each struct that the file holds lists its fields once:
+// How a field of results.json is declared. Each struct in the file lists its fields once:
 //
 //   struct Row {
 //     size_t acne = 0;
@@ -10,8 +10,8 @@
 //     }
 //   };
 //
-// From that list it is written and read back (results_file.h), shown by the table of a terminal and by the page, accepted
-// by --fail-if, and held against docs/results.md. A function in place of a member is written and not read.
+// From that list the field is written and read back (results_file.h), shown in the terminal's table and on the page,
+// accepted by --fail-if, and checked against docs/results.md. A function in place of a member is written but not read.
 
 #include <functional>
 #include <optional>

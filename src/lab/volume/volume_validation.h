@@ -1,5 +1,5 @@
 #pragma once
-// A session's shadow volume, built on the GPU and checked on the CPU: the work behind `gnomon vsv`.
+// `gnomon vsv`: a shadow volume, built on the GPU and checked on the CPU.
 
 #include "lab/core/session.h"
 #include "lab/results/schema.h"
