@@ -16,8 +16,7 @@ enum class Distance {
   Axial,   // its largest coordinate: metres along the axis of the cube face it falls on
 };
 
-// Metres to the nearest point of any triangle, and not less than `least`; `farthest` where there is none
-// nearer.
+// Metres to the nearest point of any triangle, and not less than `least`; `farthest` where there is none nearer.
 double nearestCaster(const Scene& scene, const glm::dvec3& lightW, Distance distance, double least, double farthest);
 
 // Metres to the farthest of the points, or to the farthest corner of the scene where there are none.

@@ -8,8 +8,8 @@ GNOMON_SHARED_BEGIN
 
 const int kMostKnobs = 4;
 
-// The parameters of one method. Its row in src/shadow/bias.cpp lists its knobs, in this order, with names, units, ranges
-// and defaults; its file in bias/ names their places.
+// The parameters of one method. Its row in src/shadow/bias.cpp lists its knobs, in this order, with names, units,
+// ranges and defaults; its file in bias/ names their places.
 struct BiasParams {
   float knobs[kMostKnobs];
   int epsilonAt;  // kEpsilonAt*, of the adaptive methods

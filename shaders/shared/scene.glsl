@@ -33,8 +33,8 @@ struct SceneMaterial {
   int doubleSided;
 };
 
-// A pixel of the G-buffer: which triangle of which instance. The first word is 0 where nothing was drawn. On the GPU triangles
-// are counted through the whole array; what the CPU gets back (downloadPrimitiveIds) counts within the mesh.
+// A pixel of the G-buffer: which triangle of which instance. The first word is 0 where nothing was drawn. On the GPU
+// triangles are counted through the whole array; what the CPU gets back (downloadPrimitiveIds) counts within the mesh.
 struct PrimitiveId {
   uint instancePlusOne;
   uint triangle;

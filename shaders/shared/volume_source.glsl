@@ -20,7 +20,8 @@ GNOMON_FN vec3 sourceDirection(LightFrame volumeFrame, LightFrame sourceFrame, v
   return directionFromWorld(sourceFrame, dirW);
 }
 
-// `depth`: what the texel at `point` stores, which is mapProject of dirS, the column's direction dirL in the map's frame.
+// `depth`: what the texel at `point` stores, which is mapProject of dirS, the column's direction
+// dirL in the map's frame.
 GNOMON_FN float alphaLookedUp(ShadowMap source, MapPoint point, float depth, vec3 dirS, vec3 dirL, float eyeDistance) {
   if (!point.covered || depth >= 1.0f) return noOccluder();
   Ray ray = mapTexelRay(source, point.layer, point.uv);
@@ -29,7 +30,9 @@ GNOMON_FN float alphaLookedUp(ShadowMap source, MapPoint point, float depth, vec
 }
 
 // `depth`: what the columns' own map stores.
-GNOMON_FN float alphaDrawn(EpipolarGrid grid, float depth) { return depth < 1.0f ? depth * alphaUpper(grid) : noOccluder(); }
+GNOMON_FN float alphaDrawn(EpipolarGrid grid, float depth) {
+  return depth < 1.0f ? depth * alphaUpper(grid) : noOccluder();
+}
 
 GNOMON_SHARED_END
 #endif

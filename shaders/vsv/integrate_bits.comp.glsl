@@ -38,12 +38,15 @@ vec3 runningAt(float bin) {
   float columns = clamp(columnOfFirstBin + bin * columnsInBin, 0.0f, float(kTableColumns - 1));
   int column = min(int(columns), kTableColumns - 2);
   float blend = columns - float(column);
-  vec4 lower = mix(texelFetch(running, ivec2(column, tableRow), 0), texelFetch(running, ivec2(column + 1, tableRow), 0), blend);
-  vec4 upper = mix(texelFetch(running, ivec2(column, tableRow + 1), 0), texelFetch(running, ivec2(column + 1, tableRow + 1), 0), blend);
+  vec4 lower = mix(texelFetch(running, ivec2(column, tableRow), 0), texelFetch(running, ivec2(column + 1, tableRow), 0),
+                   blend);
+  vec4 upper = mix(texelFetch(running, ivec2(column, tableRow + 1), 0),
+                   texelFetch(running, ivec2(column + 1, tableRow + 1), 0), blend);
   return vec3(mix(lower, upper, tableBlend));
 }
 
-// The lower border of a bin, and of the last its upper, but not beyond the ray's ends. What lies before the volume counts as its first bin does.
+// The lower border of a bin, and of the last its upper, but not beyond the ray's ends. What lies before the volume
+// counts as its first bin does.
 float borderOnRay(int bin, int firstBin) { return bin == firstBin ? binBegin : min(float(bin), binEnd); }
 
 // Bits 0 .. n - 1 of a word.
@@ -122,6 +125,7 @@ void main() {
   placeRay(grid, alpha, range);
   vec3 light = vec3(0.0f);
   if (range.end > range.begin)
-    light = integrateLit(grid, epipolarTexelIndex(grid, i, k, 0)) * scatteringFactor(media.medium, grid.eyeDistance, sinAlpha);
+    light = integrateLit(grid, epipolarTexelIndex(grid, i, k, 0)) *
+            scatteringFactor(media.medium, grid.eyeDistance, sinAlpha);
   scatter(pixel, light * push.intensity);
 }

@@ -30,7 +30,8 @@ void main() {
       toEye = eyeDepth[index];
       toLight = depthFromLight(push.reach, light.position - push.light.lightW);
     }
-    color = light.albedo * (light.direct * transmittance(media.medium, toLight + toEye) + light.ambient * transmittance(media.medium, toEye));
+    color = light.albedo * (light.direct * transmittance(media.medium, toLight + toEye) +
+                            light.ambient * transmittance(media.medium, toEye));
   }
   if (push.light.add == 1) color += surfaces[index];
   surfaces[index] = color;

@@ -8,8 +8,7 @@ namespace gnomon {
 
 namespace {
 
-// The program's RUNPATH says where the library is, in the build and installed; beside the program it is
-// found, too.
+// The program's RUNPATH says where the library is, in the build and installed; beside the program it is found, too.
 const ImageCodec& load() {
   void* library = ::dlopen(kImageCodecLibrary, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr)

@@ -166,8 +166,7 @@ Candidate chooseDevice(VkInstance instance, const std::string& name) {
   throw WorldError(refusal);
 }
 
-// A family that draws and computes. Drawing families must compute by the specification, in some family at
-// least.
+// A family that draws and computes. Drawing families must compute by the specification, in some family at least.
 uint32_t chooseQueueFamily(VkPhysicalDevice device, uint32_t& timestampValidBits) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);

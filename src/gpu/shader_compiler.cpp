@@ -82,8 +82,7 @@ std::optional<std::string> findSource(const ShaderSource& source, const std::str
   return std::nullopt;
 }
 
-// The file that a line includes in quotes; empty for other lines. <...> is C++'s, and left to the
-// preprocessor to skip.
+// The file that a line includes in quotes; empty for other lines. <...> is C++'s, and left to the preprocessor to skip.
 std::string_view includedFile(std::string_view line) {
   const auto skipSpace = [&] { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); };
   skipSpace();

@@ -189,8 +189,7 @@ FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
     }
     planes.push_back(warped.warped ? warped.clipFromPlane : fitWindow(input, frame, points, sceneScale));
   }
-  // Finest first: of the windows that hold a point the first is taken. Texels are small where the scale is
-  // large.
+  // Finest first: of the windows that hold a point the first is taken. Texels are small where the scale is large.
   std::ranges::stable_sort(planes, std::ranges::greater(),
                            [](const glm::dmat3& m) { return std::abs(glm::determinant(m)); });
 

@@ -119,9 +119,8 @@ Extent extentAlong(const glm::dvec2& direction, std::span<const glm::dvec2> poin
   return extent;
 }
 
-// Wimmer, Scherzer, Purgathofer, "Light Space Perspective Shadow Maps", EGSR 2004, section 4.2, in the form
-// of its later errata: n = (z_n + sqrt(z_n z_f)) / sin gamma, z_n and z_f the camera's depths of what it
-// sees.
+// Wimmer, Scherzer, Purgathofer, "Light Space Perspective Shadow Maps", EGSR 2004, section 4.2, in the form of its
+// later errata: n = (z_n + sqrt(z_n z_f)) / sin gamma, z_n and z_f the camera's depths of what it sees.
 double lispsmDistance(const WarpInput& input, const Axis& axis) {
   const ViewRange range = viewRange(input);
   return axis.metre * (range.nearest + std::sqrt(range.nearest * range.farthest)) / axis.sinAngle;
@@ -201,10 +200,9 @@ PostPerspective postPerspective(const glsl::CameraView& camera, const ViewRange&
           .farthest = farthest};
 }
 
-// The light of post-perspective space looks at the middle G of the unit cube from q (homogeneous). With unit
-// axes u, v, a, where a runs from q to G: X = u.(p - G), Y = v.(p - G), W = a.p q.w - a.q p.w, each 0 at q
-// itself, and W the distance along a, up to a factor. Where q lies at infinity W is p.w, and the light is
-// directional there.
+// The light of post-perspective space looks at the middle G of the unit cube from q (homogeneous). With unit axes u, v,
+// a, where a runs from q to G: X = u.(p - G), Y = v.(p - G), W = a.p q.w - a.q p.w, each 0 at q itself, and W the
+// distance along a, up to a factor. Where q lies at infinity W is p.w, and the light is directional there.
 std::optional<glm::dmat3> psmRows(const WarpInput& input, const PostPerspective& camera) {
   const AxisFrame& frame = input.frame;
   const glm::dvec3 towards = frame.worldFromLight[2];

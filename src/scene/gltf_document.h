@@ -15,8 +15,7 @@ class Model;
 
 namespace gnomon {
 
-// An entry of "images". tinygltf never sees these: only those that a base colour uses are fetched and
-// decoded.
+// An entry of "images". tinygltf never sees these: only those that a base colour uses are fetched and decoded.
 struct GltfImage {
   std::string name;
   std::string uri;  // relative to the file, or a data: URI; empty where bufferView is given

@@ -18,8 +18,7 @@ struct Knob {
   float defaultValue;
   bool defaultOfSceneScale;
   const char* sentence;
-  // Where a search for the best value looks, in the unit of the default (of the scene's diagonal, where that
-  // is).
+  // Where a search for the best value looks, in the unit of the default (of the scene's diagonal, where that is).
   float searchLower = 0.0f, searchUpper = 0.0f;
 
   float defaultFor(float sceneScale) const { return defaultValue * (defaultOfSceneScale ? sceneScale : 1.0f); }

@@ -24,8 +24,7 @@ class LayerCulling {
   std::vector<Range> rangesOf(const SceneBuffers& scene, const Draw& draw) const;
 
  private:
-  // Rows x, y and w of clip space, as functions of a point in the light's frame and in the world (but for a
-  // constant).
+  // Rows x, y and w of clip space, as functions of a point in the light's frame and in the world (but for a constant).
   struct Projective {
     glm::vec4 fromLight[3];
     glm::vec3 fromWorld[3];

@@ -17,8 +17,8 @@ class MapRenderer;
 class VisibilityPass;
 
 enum class CullMode {
-  Solids,  // back faces of closed one-sided meshes, seen from the light, are left out (Weiskopf & Ertl 2003,
-           // section 4)
+  // Back faces of closed one-sided meshes, seen from the light, are left out (Weiskopf & Ertl 2003, section 4).
+  Solids,
   None,
 };
 

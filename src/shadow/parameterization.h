@@ -78,8 +78,7 @@ class Parameterization {
   // How a light is taken. `aimW` is the unit direction in which a light without one of its own is made to
   // shine. The light is of a kind that is supported.
   virtual LightModel lightModel(const Light& light, const glm::dvec3& aimW) const = 0;
-  // Whether a bias means anything on it, and whether its texels can be filtered: a shadow volume holds no
-  // depths.
+  // Whether a bias means anything on it, and whether its texels can be filtered: a shadow volume holds no depths.
   virtual bool supportsBias(const BiasMethod&) const { return true; }
   virtual bool supportsFilters() const { return true; }
   virtual FittedMap fit(const FitInput& input) const = 0;

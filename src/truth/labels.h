@@ -3,8 +3,7 @@
 //
 //   agree        prediction = truth
 //   acne         predicted shadow where there is light, and the surface is continuous, seen from the light,
-//                between the texel centre's ray and the pixel's: nothing there casts a shadow. The bias
-//                failed
+//                between the texel centre's ray and the pixel's: nothing there casts a shadow. The bias failed
 //   leak         predicted light where there is shadow, although the first hit along the texel centre's ray
 //                lies before the receiver's plane: the map held the occluder, the bias stepped over it
 //   edge_shadow  predicted shadow where there is light, across a silhouette: the map is too coarse there

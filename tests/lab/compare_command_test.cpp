@@ -1,4 +1,5 @@
-// Command lines that make a comparison, or a row of it, again: what is at its default is left out, what is not is there.
+// Command lines that make a comparison, or a row of it, again: what is at its default is left out, what is not is
+// there.
 #include "lab/compare/compare_command.h"
 
 #include "omni/cube_map.h"

@@ -215,8 +215,7 @@ TEST(Warp, OfALightAmongWhatIsSeenCoversAllOfItAndSaysWhatItCost) {
     EXPECT_NE(notes.find(note), std::string::npos) << note << " is not among " << notes;
 }
 
-// However the sun stands, W stays within what kMostWarp allows, and no layer is mirrored: culling relies on
-// it.
+// However the sun stands, W stays within what kMostWarp allows, and no layer is mirrored: culling relies on it.
 TEST(Warp, KeepsItsRatioAndItsHandAtEveryAngle) {
   for (const double elevation : {8.0, 30.0, 60.0, 90.0}) {
     for (int azimuth = 0; azimuth < 360; azimuth += 30) {

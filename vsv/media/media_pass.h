@@ -57,8 +57,8 @@ class MediaPass {
   void recordTable(gpu::Commands& commands, const Occluders& occluders, const MediaLightSource& light);
 
   // Light scattered towards the eye. `occluders`: a volume's for Runs, Bits and Popcount, a map's for March. In a
-  // heterogeneous medium every integrator marches, through whichever they are. `add`: to what other lights scattered. Stage "media integrate".
-  // Several lights: recordTable, barrier, record, barrier, recordTable of the next.
+  // heterogeneous medium every integrator marches, through whichever they are. `add`: to what other lights scattered.
+  // Stage "media integrate". Several lights: recordTable, barrier, record, barrier, recordTable of the next.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const Occluders& occluders,
               const MediaLightSource& light, const MediaMethod& method, bool add);
 

@@ -8,7 +8,8 @@
 
 GNOMON_SHARED_BEGIN
 
-// Whether the texel lights the receiver. What stands here is no bias at all, moved by the knob (metres) as an example of its use.
+// Whether the texel lights the receiver. What stands here is no bias at all, moved by the knob (metres)
+// as an example of its use.
 GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
   return litWithOffset(map, receiver, tap, params.knobs[kUserOffset]);
 }

@@ -23,8 +23,8 @@ double changeBeyond(const ImageF& measured, const ImageF& measuredNext, const Im
 
 double meanValue(const ImageF& image);
 
-// Of each row with an error that is no baseline, with and without builds, by both measures: read off the baseline's curve
-// of error over time (steps are joined by straight lines in log-log). Empty without a baseline.
+// Of each row with an error that is no baseline, with and without builds, by both measures: read off the baseline's
+// curve of error over time (steps are joined by straight lines in log-log). Empty without a baseline.
 std::vector<EqualTerms> equalTerms(const std::vector<MediaRow>& rows);
 
 // "12.3", ">= 12.3", "<= 0.8".

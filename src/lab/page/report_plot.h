@@ -54,8 +54,7 @@ Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height,
 // Round steps of 1, 2 or 5 times a power of ten: about `count` numbers within [from, to].
 std::vector<double> roundSteps(double from, double to, int count);
 
-// 1, 2 and 5 times the powers of ten within [from, to], from > 0; the powers alone where that is more than
-// `most`.
+// 1, 2 and 5 times the powers of ten within [from, to], from > 0; the powers alone where that is more than `most`.
 std::vector<double> decadeSteps(double from, double to, size_t most);
 
 }  // namespace gnomon

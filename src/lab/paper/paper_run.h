@@ -51,8 +51,7 @@ class PaperRun {
   Reproduction result_;
 };
 
-// The panels of one figure. Numbers of a panel are named by figure and panel: "acne(5b)", "leak(7 near
-// slope)".
+// The panels of one figure. Numbers of a panel are named by figure and panel: "acne(5b)", "leak(7 near slope)".
 class FigureRun {
  public:
   FigureRun(PaperRun& run, const std::string& id, const std::string& title);

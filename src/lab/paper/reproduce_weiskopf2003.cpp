@@ -56,8 +56,7 @@ void figure5(PaperRun& run) {
                "Convincing, although the map is heavily undersampled.");
 }
 
-// Figures 6 and 7: the paper does not tell its offsets, which were set by hand. Here each is the best for the
-// picture.
+// Figures 6 and 7: the paper does not tell its offsets, which were set by hand. Here each is the best for the picture.
 void figure6(PaperRun& run) {
   run.open("double-torus", "", "", run.scaled(768));
   FigureRun figure(run, "6", "Curved solids, with bilinear filtering and without");
