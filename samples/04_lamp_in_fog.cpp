@@ -1,6 +1,5 @@
-// A lamp behind bars in fog: the light's visibility in the whole view volume is voxelized into bits, one a
-// place along a light ray, and each pixel sums the runs of lit bits along its view ray. Light shafts without
-// marching.
+// A lamp behind bars in fog: the light's visibility in the whole view volume is voxelized into bits, one a place along
+// a light ray, and each pixel sums the runs of lit bits along its view ray. Light shafts without marching.
 //
 //   04_lamp_in_fog [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 

@@ -13,8 +13,7 @@ namespace gnomon {
 
 namespace {
 
-// Metres from a plane to the light, positive on the normal's side; of a directional light, only the sign
-// means much.
+// Metres from a plane to the light, positive on the normal's side; of a directional light, only the sign means much.
 double sideOfLight(const LightModel& light, const glm::dvec3& pointW, const glm::dvec3& normalW) {
   if (light.type == LightType::Directional) return -glm::dot(normalW, light.directionW);
   return glm::dot(normalW, light.positionW - pointW);

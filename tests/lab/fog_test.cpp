@@ -99,7 +99,7 @@ TEST_F(FogTest, BitsComeCloserThanAMarchAndFilesSaySo) {
 
   writeTextFile(how.outDir / "results.json", text);
   const std::string page = reportHtml(how.outDir);
-  for (const char* part : {"march 64", "On equal terms with a march", "The reference", "data:image/png"})
+  for (const char* part : {"march 64", "Compared with ray marching", "The reference", "data:image/png"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("cannot be read"), std::string::npos);
   EXPECT_EQ(page.find("{{"), std::string::npos);

@@ -39,7 +39,7 @@ const std::vector<Integrator>& integrators() {
 const Integrator& findIntegrator(const std::string& name) {
   const auto found = std::ranges::find_if(integrators(), [&](const Integrator& i) { return i.name == name; });
   if (found == integrators().end())
-    throw UsageError(fmt::format("--integrators {}: choose of {}", name, integratorNames()));
+    throw UsageError(fmt::format("--integrators {}: choose from {}", name, integratorNames()));
   return *found;
 }
 

@@ -39,8 +39,8 @@ glsl::MediaPush pushFor(const MediaLightSource& light, const MediaMethod& method
 MediaLightSource mediaLight(const Light& light) {
   if (light.type == LightType::Directional)
     throw WorldError(
-        fmt::format("the light '{}' is directional, and shafts are made of point and spot lights; choose another with "
-                    "--light",
+        fmt::format("the light '{}' is directional, and gnomon fog supports point and spot lights only; choose another "
+                    "with --light",
                     light.name));
   MediaLightSource source{.positionW = glm::dvec3(light.positionW), .intensity = light.color * light.intensity};
   if (light.type == LightType::Spot) {

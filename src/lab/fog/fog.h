@@ -1,6 +1,6 @@
 #pragma once
-// Light shafts in a medium by every chosen way to integrate, against the traced reference: the work behind
-// `gnomon fog`. docs/media.md has the model and its units.
+// `gnomon fog`: light shafts by every chosen integrator, compared with a ray-traced reference. docs/media.md has the
+// model and its units.
 
 #include "lab/fog/fog_measure.h"
 #include "lab/fog/fog_view.h"

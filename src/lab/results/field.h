@@ -1,5 +1,5 @@
 #pragma once
-// How a field of results.json is declared. Each struct that the file holds lists its fields once:
+// How a field of results.json is declared. Each struct in the file lists its fields once:
 //
 //   struct Row {
 //     size_t acne = 0;

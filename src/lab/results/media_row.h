@@ -1,5 +1,5 @@
 #pragma once
-// Rows of gnomon fog: one integrator on one map, against the traced reference; and how it stands against the baseline.
+// Rows of gnomon fog: one integrator on one map, compared with the ray-traced reference and with ray marching.
 
 #include "lab/results/row.h"
 

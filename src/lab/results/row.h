@@ -1,5 +1,5 @@
 #pragma once
-// A row of a comparison: one method on one map through one filter, against the exact shadow.
+// A row of a comparison: one bias on one map with one filter, compared with the exact shadow.
 
 #include "lab/results/schema.h"
 
