@@ -12,16 +12,14 @@ namespace gnomon {
 
 namespace {
 
-// A near end cannot stand nearer to the light than this share of the scene's diagonal (as planar maps have
-// it): 32-bit positions in a scene of that size are good to 2^-24 of the diagonal, so that what is nearer has
-// a direction that is off by more than half a percent, and a surface that holds the light itself would leave
-// no depth.
+// A near end cannot stand nearer to the light than this share of the scene's diagonal (as planar maps have it): 32-bit
+// positions in a scene of that size are good to 2^-24 of the diagonal, so that what is nearer has a direction that is
+// off by more than half a percent, and a surface that holds the light itself would leave no depth.
 constexpr double kLeastNear = 1e-5;
 // Far more than what 32-bit positions round (1e-7 of the far end), far less than what costs precision.
 constexpr double kEndSlack = 1e-3;
 
-// Ericson, "Real-Time Collision Detection", 2005, section 5.1.5: the Voronoi regions of a triangle's
-// features.
+// Ericson, "Real-Time Collision Detection", 2005, section 5.1.5: the Voronoi regions of a triangle's features.
 glm::dvec3 nearestToOrigin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 ab = b - a, ac = c - a;
   const double d1 = -glm::dot(ab, a), d2 = -glm::dot(ac, a);

@@ -1,6 +1,6 @@
 #pragma once
-// How near a point light the scene comes, and how far it reaches: the ends of depth of maps that look
-// everywhere.
+// Distances from a point light to the nearest and the farthest caster: the near and far ends of maps that cover all
+// directions.
 
 #include "scene/scene.h"
 
@@ -16,8 +16,7 @@ enum class Distance {
   Axial,   // its largest coordinate: metres along the axis of the cube face it falls on
 };
 
-// Metres to the nearest point of any triangle, and not less than `least`; `farthest` where there is none
-// nearer.
+// Metres to the nearest point of any triangle, and not less than `least`; `farthest` where there is none nearer.
 double nearestCaster(const Scene& scene, const glm::dvec3& lightW, Distance distance, double least, double farthest);
 
 // Metres to the farthest of the points, or to the farthest corner of the scene where there are none.

@@ -6,16 +6,15 @@
 
 namespace gnomon {
 
-constinit const ChoiceOption<CubeDepth> kCubeDepth({.name = "cube_depth", .sentence = "how a cube map stores depth"},
-                                                   CubeDepth::Hyperbolic,
-                                                   {{CubeDepth::Hyperbolic, "hyperbolic",
-                                                     "the rasterizer's depth of each face"},
-                                                    {CubeDepth::Radial, "radial", "linear in the distance"}});
+constinit const ChoiceOption<CubeDepth> kCubeDepth(
+    {.name = "cube_depth", .sentence = "how a cube map stores depth"}, CubeDepth::Hyperbolic,
+    {{CubeDepth::Hyperbolic, "hyperbolic", "z/w of each face, as rasterized"},
+     {CubeDepth::Radial, "radial", "linear in the distance from the light"}});
 
 constinit const ChoiceOption<LayerPasses> kCubePasses(
-    {.name = "cube_passes", .sentence = "how often a cube's triangles are drawn"}, LayerPasses::Auto,
-    {{LayerPasses::Auto, "auto", "whichever is faster on the device, of what it draws right"},
-     {LayerPasses::Each, "six", "the faces one by one"},
+    {.name = "cube_passes", .sentence = "how a cube map's faces are drawn"}, LayerPasses::Auto,
+    {{LayerPasses::Auto, "auto", "the faster of those that the device draws correctly"},
+     {LayerPasses::Each, "six", "one pass a face"},
      {LayerPasses::Multiview, "multiview", "all faces in one pass"}});
 
 namespace {
@@ -42,7 +41,7 @@ glm::mat4 clipFromLight(int layer, const glm::vec2& depth) {
 class CubeParameterization final : public Parameterization {
  public:
   const char* name() const override { return "cube"; }
-  const char* sentence() const override { return "six layers around a point light"; }
+  const char* sentence() const override { return "six faces around a point light"; }
   int layerCount(const MapOptions&) const override { return 6; }
 
   LightSupport supportsLight(LightType type) const override {

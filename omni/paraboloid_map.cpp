@@ -44,14 +44,16 @@ std::string unitAxisText(const MapOptions& options) {
 
 constinit const WrittenOption<Axis> kParaboloidAxisW(
     {.name = "paraboloid_axis",
-     .sentence = "x,y,z: where the first hemisphere looks; auto: the seam is turned away from what the camera sees",
+     .sentence = "x,y,z: axis of the first hemisphere; auto: chosen so that the seam is away from what the camera "
+                 "sees",
      .told = unitAxisText},
     std::nullopt, parseAxis, axisText);
 
 constinit const ChoiceOption<ParaboloidRaster> kParaboloidRaster(
     {.name = "paraboloid_raster", .sentence = "how triangles are drawn into a paraboloid"}, ParaboloidRaster::Exact,
     {{ParaboloidRaster::Vertex, "vertex", "straight edges between projected vertices, which is inexact"},
-     {ParaboloidRaster::Tessellated, "tessellated", "triangles are cut until that is right to half a texel"},
+     {ParaboloidRaster::Tessellated, "tessellated",
+      "like vertex, with triangles cut until the edges are right to half a texel"},
      {ParaboloidRaster::Exact, "exact", "each texel's ray decides"}});
 
 namespace {

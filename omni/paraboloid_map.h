@@ -3,11 +3,11 @@
 // Its mathematics is shaders/shared/paraboloid_map.glsl; the frame's -z is the axis of layer 0, and the seam
 // is the great circle across it.
 //
-// Three ways to rasterize (kParaboloidRaster). Straight edges become arcs: `vertex` draws them
-// straight between the corners and is wrong for large triangles; `tessellated` cuts triangles until that is
-// right to half a texel (shaders/shared/paraboloid_pieces.glsl); `exact` draws a bound of every triangle and
-// lets each texel's own ray decide. The cutting is a compute shader's and not the tessellator's, which cuts
-// evenly, 64 times at most: too little near a light close to a large floor, and too much elsewhere.
+// Three rasterizers (kParaboloidRaster), because straight edges project to arcs. `vertex` projects the vertices and
+// draws straight edges: wrong for large triangles. `tessellated` cuts triangles until straight edges are right to half
+// a texel (shaders/shared/paraboloid_pieces.glsl). `exact` draws a bound of every triangle and runs one ray-triangle
+// test a texel. Triangles are cut by a compute shader, because the hardware tessellator cuts evenly and at most 64
+// times: too little where a light is close to a large floor, and too much elsewhere.
 
 #include "shadow/parameterization.h"
 

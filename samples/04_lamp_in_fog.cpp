@@ -1,6 +1,5 @@
-// A lamp behind bars in fog: the light's visibility in the whole view volume is voxelized into bits, one a
-// place along a light ray, and each pixel sums the runs of lit bits along its view ray. Light shafts without
-// marching.
+// A lamp behind bars in fog: the light's visibility in the whole view volume is voxelized into bits, one a place along
+// a light ray, and each pixel sums the runs of lit bits along its view ray. Light shafts without marching.
 //
 //   04_lamp_in_fog [SCENE [OUT.png]]      SCENE: a glTF file or the name of a generated scene
 
@@ -50,7 +49,7 @@ void run(const char* sceneName, const char* path) {
   commands.barrier("visibility and the running integral are written -> surfaces and view rays read them");
   media.recordSurfaces(commands, seen.buffers(), seen.gbuffer(), lamp, visibility.uniforms(), visibility.visibility(),
                        false);
-  media.record(commands, seen.buffers(), seen.gbuffer(), volume, lamp, {.integrator = Integrator::Runs}, false);
+  media.record(commands, seen.buffers(), seen.gbuffer(), volume, lamp, mediaMethod("runs"), false);
   commands.barrier("surfaces and scattered light are written -> their sum reads them");
   media.recordSum(commands);
   commands.submitAndWait();

@@ -1,9 +1,9 @@
-// A parameterization of one's own, scored beside the cube: four faces of a tetrahedron around a point light
-// (Liao, "Shadow Mapping for Omni-Directional Light Using Tetrahedron Mapping", GPU Pro, 2010, in kind).
+// A user-defined parameterization, scored beside the cube: four faces of a tetrahedron around a point light (after
+// Liao, "Shadow Mapping for Omni-Directional Light Using Tetrahedron Mapping", GPU Pro, 2010).
 //
-// Every layer is a window of a plane (kMapPlanar), so that the matrices are all there is to say: biases,
-// filters, labels and tables follow. docs/add_a_parameterization.md says what else one needs whose rays are
-// not a matrix's.
+// Every layer is an ordinary projection (kMapPlanar), so the matrices are all that is needed: biases, filters, labels
+// and tables work unchanged. docs/add_a_parameterization.md says what else is needed where no matrix describes the
+// texels.
 //
 //   05_map_of_my_own [SCENE [TEXELS]]      SCENE: a glTF file or the name of a generated scene
 

@@ -1,4 +1,4 @@
-// A bias of one's own, to be scored beside all the others:
+// A user-defined bias, to be scored beside the built-in ones:
 //
 //   gnomon compare atrium --bias-file samples/my_bias.glsl --tune
 //
@@ -16,8 +16,8 @@
 
 GNOMON_SHARED_BEGIN
 
-// `tap.ray` passes through the centre of the texel that is looked up, `tap.z1` is what the texel stores. Everything is in the light's frame, in metres;
-// depths are the map's, and mapDistance turns one into metres along a ray.
+// `tap.ray` passes through the centre of the texel that is looked up, `tap.z1` is what the texel stores. Everything is
+// in the light's frame, in metres; depths are the map's, and mapDistance turns one into metres along a ray.
 GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
   PlaneDepth plane = receiverPlaneDepth(map, tap.layer, receiver, tap.ray);
   float along = dot(receiver.posL - tap.ray.origin, tap.ray.dir);

@@ -34,7 +34,7 @@ const FittedMap& checkedFor(const gpu::Device& device, const FittedMap& columns)
   const uint64_t most = std::min(device.info().maxStorageBufferBytes, device.info().maxAllocationBytes);
   if (bytesOf(grid) > most)
     throw WorldError(
-        fmt::format("--vsv-size {}: {} MiB of voxels are more than the device's largest buffer, {} MiB; {} would fit",
+        fmt::format("--vsv-size {}: needs {} MiB, more than the device's largest buffer, {} MiB; {} would fit",
                     volumeSizeName({.alpha = grid.alphaCount, .theta = grid.thetaCount, .phi = grid.phiCount}),
                     bytesOf(grid) >> 20, most >> 20, volumeSizeName(sizeThatFits(grid, most))));
   return columns;

@@ -1,8 +1,8 @@
 #pragma once
-// A voxelized shadow volume on the GPU: the light's visibility in a whole view volume, one bit a voxel, in
-// epipolar coordinates (shaders/shared/epipolar.glsl). Wyman 2011.
+// A voxelized shadow volume on the GPU: the light's visibility in the whole view frustum, one bit a voxel, in epipolar
+// coordinates (shaders/shared/epipolar.glsl). Wyman 2011.
 //
-// It is drawn in three steps: the map that its occluders come from, the nearest occluder of each column, the bits.
+// It is filled in three steps: the source map, the nearest occluder of each column, the bits.
 
 #include "shadow/map_image.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Writing .vdb files, and what OpenVDB says when it fails: for the .cpp files that include OpenVDB anyway.
+// Writes .vdb files, and passes on OpenVDB's error messages. For the .cpp files that include OpenVDB anyway.
 
 #include "base/error.h"
 #include "base/file.h"
@@ -19,8 +19,7 @@ inline std::string openVdbMessage(const std::exception& error) {
   return colon == std::string::npos ? text : text.substr(colon + 2);
 }
 
-// OpenVDB's own File writes to a stream whose failures it does not look at, so that a full disk would go
-// unseen.
+// OpenVDB's own File writes to a stream whose failures it does not look at, so that a full disk would go unseen.
 class CheckedArchive : public openvdb::io::Archive {
  public:
   void writeTo(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,

@@ -168,9 +168,8 @@ FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit
   const double distance = glm::length(eyeW - lightW);
   if (!(distance > kLeastAxis * static_cast<double>(sceneScale)))
     throw WorldError(
-        fmt::format("the light stands {:g} m from the camera's eye, and a shadow volume's coordinates need "
-                    "an axis between them; "
-                    "move one of them with --light or --camera, or take another of --maps",
+        fmt::format("the light is {:g} m from the camera's eye, too near for a shadow volume's epipolar axis; move one "
+                    "of them with --light or --camera, or use another map",
                     distance));
   const glm::dmat3 worldFromLight = epipolarAxes(input.camera, (eyeW - lightW) / distance);
 

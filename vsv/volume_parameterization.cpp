@@ -35,21 +35,19 @@ VolumeSize parseVolumeSize(const std::string& flag, const std::string& text) {
 
 constinit const WrittenOption<VolumeSize> kVolumeSize(
     {.name = "vsv_size",
-     .sentence = "size of a shadow volume, ALPHAxTHETAxPHI; PHI a multiple of 128",
+     .sentence = "size of the shadow volume, ALPHAxTHETAxPHI; PHI is a multiple of 128",
      .unit = "voxels",
      .results = InResults::OwnRows},
     {}, parseVolumeSize, volumeSizeName);
 
 constinit const ChoiceOption<VolumeSource> kVolumeSource(
-    {.name = "vsv_source",
-     .sentence = "where the occluders of a volume's columns come from",
-     .results = InResults::OwnRows},
+    {.name = "vsv_source", .sentence = "where the shadow volume's occluders come from", .results = InResults::OwnRows},
     VolumeSource::Direct,
     {{VolumeSource::Resample, "resample", "columns are looked up in a cube map of side --map-size"},
      {VolumeSource::Direct, "direct", "each column meets the scene itself"}});
 
 constinit const ChoiceOption<VolumeFit> kVolumeFit(
-    {.name = "vsv_fit", .sentence = "what a volume covers", .results = InResults::OwnRows}, VolumeFit::Frustum,
+    {.name = "vsv_fit", .sentence = "what the shadow volume covers", .results = InResults::OwnRows}, VolumeFit::Frustum,
     {{VolumeFit::Frustum, "frustum", "what the camera sees"}, {VolumeFit::Full, "full", "the whole sphere"}});
 
 namespace {
@@ -57,7 +55,7 @@ namespace {
 class VolumeParameterization final : public Parameterization {
  public:
   const char* name() const override { return "vsv"; }
-  const char* sentence() const override { return "a voxelized shadow volume in epipolar coordinates"; }
+  const char* sentence() const override { return "an epipolar voxelized shadow volume, one bit a voxel"; }
   int layerCount(const MapOptions&) const override { return 1; }
 
   LightSupport supportsLight(LightType type) const override {

@@ -1,6 +1,6 @@
 #pragma once
-// The shadow volume as one more map: its columns are the texels of a map of one layer, its bits the depths in
-// unary.
+// The shadow volume as a parameterization: its columns are the texels of a one-layer map, whose depths are stored in
+// unary, as bits.
 
 #include "vsv/shadow_volume.h"
 

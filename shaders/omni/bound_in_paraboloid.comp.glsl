@@ -1,5 +1,5 @@
-// The triangles that a layer of a paraboloid map shows, one invocation each; large ones have a bound for each of several pieces, all
-// with the whole triangle's planes, so that no texel is decided otherwise.
+// The triangles that a layer of a paraboloid map shows, one invocation each; large ones have a bound for each of
+// several pieces, all with the whole triangle's planes, so that no texel is decided otherwise.
 #include "shared/bounded_triangle.glsl"
 #include "shared/paraboloid_pieces.glsl"
 

@@ -1,8 +1,8 @@
-// The triangles that a layer of a paraboloid map shows, one invocation each, cut until they may be drawn with straight edges
-// (paraboloid_pieces.glsl).
+// The triangles that a layer of a paraboloid map shows, one invocation each, cut until they may be drawn with straight
+// edges (paraboloid_pieces.glsl).
 //
-// mapDepth is called by its case: lavapipe inlines uniforms that loops and branches depend on, and a switch in the loop had it
-// compile the shader again for every dispatch (measured: 12 times slower).
+// mapDepth is called by its case: lavapipe inlines uniforms that loops and branches depend on, and a switch in the loop
+// had it compile the shader again for every dispatch (measured: 12 times slower).
 #include "shared/paraboloid_pieces.glsl"
 #include "shared/straight_triangle.glsl"
 

@@ -1,5 +1,5 @@
-// A vertex to a layer of a paraboloid map, as Brabec et al. 2002 do: corners are right, and what lies between them is drawn straight,
-// which it is not. Kept to be compared with bound_in_paraboloid.comp.glsl.
+// Projects a vertex to a layer of a paraboloid map, as in Brabec et al. 2002: vertices are right, but edges are drawn
+// straight although they should be arcs. Kept for comparison with bound_in_paraboloid.comp.glsl.
 #include "shared/shade.glsl"
 
 #include "shadow/drawn_slice.glsl"

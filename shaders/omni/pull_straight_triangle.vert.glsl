@@ -1,4 +1,4 @@
-// A corner of a triangle that cut_for_paraboloid.comp.glsl found.
+// Fetches one vertex of a triangle written by cut_for_paraboloid.comp.glsl.
 #include "shared/straight_triangle.glsl"
 
 layout(scalar, binding = kBindBoundedTriangles) readonly buffer Found { StraightTriangle found[]; };

@@ -1,4 +1,4 @@
-// What a pixel sees, from the triangle its G-buffer entry names: the point, its plane, its material and uv.
+// Fetches a pixel's surface from its G-buffer triangle: the point, its plane, its material and uv.
 #ifndef GNOMON_SURFACE_FETCH_GLSL
 #define GNOMON_SURFACE_FETCH_GLSL
 
@@ -10,9 +10,9 @@ layout(scalar, binding = kBindTriangles) readonly buffer Triangles { uvec3 trian
 layout(binding = kBindPrimitiveIds) uniform utexture2D primitiveIds;
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
 
-// 0: every mesh stands in world space, and no matrix need be read. On lavapipe a gather from a storage buffer runs lane by
-// lane (measured: reading the matrix too makes the visibility pass 1.2 to 1.3 times slower), so a pixel makes four: a
-// triangle and three corners.
+// 0: every mesh stands in world space, and no matrix need be read. On lavapipe a gather from a storage buffer runs lane
+// by lane (measured: reading the matrix too makes the visibility pass 1.2 to 1.3 times slower), so a pixel makes four:
+// a triangle and three corners.
 layout(constant_id = 4) const int kInstanced = 1;
 
 PrimitiveId fetchPrimitive(ivec2 pixel) {

@@ -1,4 +1,4 @@
-// What pull_bounded_triangle.vert.glsl hands to draw_bounded_triangle.frag.glsl.
+// Varyings from pull_bounded_triangle.vert.glsl to draw_bounded_triangle.frag.glsl.
 #ifdef GNOMON_BOUNDED_OUT
 #define GNOMON_BOUNDED out
 #else

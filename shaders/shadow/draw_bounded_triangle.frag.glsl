@@ -1,6 +1,5 @@
-// The non-linear rasterizer: the ray through a texel's centre meets the triangle or does not. It knows the
-// parameterization by mapTexelRay, mapHoldsTexelAt and mapDepth only; some compute shader has found a bound of the
-// triangle's projection.
+// The non-linear rasterizer: one ray-triangle test a texel. It uses only mapTexelRay, mapHoldsTexelAt and mapDepth of
+// the parameterization; a compute shader has bounded the triangle's projection before.
 layout(constant_id = 2) const int kMapKind = 0;  // kMap*
 #define GNOMON_MAP_KIND kMapKind
 

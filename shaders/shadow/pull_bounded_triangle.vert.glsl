@@ -1,4 +1,4 @@
-// Two triangles around the projection of each that a bounding compute shader found.
+// Draws a quad around the projection of each triangle that a bounding compute shader wrote.
 #include "shared/bounded_triangle.glsl"
 
 #define GNOMON_BOUNDED_OUT

@@ -1,5 +1,5 @@
-// What a pixel asks a map about: the point it sees, in the light's frame, or why there is nothing to ask.
-// The including shader declares `shade` and the G-buffer (scene/surface_fetch.glsl).
+// A pixel's receiver: its surface point in the light's frame, or the reason why it has none. The including shader
+// declares `shade` and the G-buffer (scene/surface_fetch.glsl).
 #ifndef GNOMON_RECEIVER_FETCH_GLSL
 #define GNOMON_RECEIVER_FETCH_GLSL
 

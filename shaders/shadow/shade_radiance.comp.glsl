@@ -1,4 +1,4 @@
-// The picture for people: diffuse surfaces, one light with its visibility, a little ambient.
+// The shaded picture: diffuse surfaces, one light with its visibility, a little ambient light.
 #include "shared/shade.glsl"
 
 layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;

@@ -1,8 +1,8 @@
 // One visibility shader for every map, bias and filter: G-buffer pixel -> receiver -> taps -> how much of them is lit.
 //
-// The method, the map's kind and its layer count are specialization constants, so that each pipeline holds one bias on one
-// map only, and reads the matrices of a single layer from constant addresses. kDiagnose also writes what decided the
-// pixel, of one tap; timings are taken without it.
+// The method, the map's kind and its layer count are specialization constants, so that each pipeline holds one bias on
+// one map only, and reads the matrices of a single layer from constant addresses. kDiagnose also writes what decided
+// the pixel, of one tap; timings are taken without it.
 layout(constant_id = 0) const int kMethod = 0;   // kBias*
 layout(constant_id = 2) const int kMapKind = 0;  // kMap*
 #define GNOMON_BIAS_METHOD kMethod
@@ -35,9 +35,11 @@ ShadowMap specializedMap() {
   return map;
 }
 
-// The share of the filter's taps that are lit; taps that no layer holds count for nothing. Without a filter the one tap is the texel that
-// holds the receiver, and with kDiagnose what it said. One path for all: the bias is compiled once, and compiling is what a run waits for.
-float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2 pixel, inout PixelDiagnosis pixelDiagnosis) {
+// The share of the filter's taps that are lit; taps that no layer holds count for nothing. Without a filter the one tap
+// is the texel that holds the receiver, and with kDiagnose what it said. One path for all: the bias is compiled once,
+// and compiling is what a run waits for.
+float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2 pixel,
+                         inout PixelDiagnosis pixelDiagnosis) {
   vec2 position = point.uv * mapTexelCounts(map);
   uint seed = pixelSeed(pixel);
   float lit = 0.0f;

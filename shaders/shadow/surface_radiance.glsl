@@ -1,5 +1,5 @@
-// The light that a diffuse surface sends to the eye: of one light with its visibility, and a little ambient. The including shader declares
-// `shade`.
+// The light that a diffuse surface sends to the eye: of one light with its visibility, and a little ambient. The
+// including shader declares `shade`.
 #ifndef GNOMON_SURFACE_RADIANCE_GLSL
 #define GNOMON_SURFACE_RADIANCE_GLSL
 

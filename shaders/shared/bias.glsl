@@ -1,7 +1,8 @@
-// A bias decides whether a receiver is lit by what one texel stores. It is a function of the receiver's plane, the texel's
-// ray and what the texel's channels hold (shared/channels.glsl), and never knows which parameterization it runs on.
+// A bias decides whether a receiver is lit, from the receiver's plane, the texel's ray and the texel's channels
+// (shared/channels.glsl). It does not know which parameterization it runs on.
 //
-// To add one: a file in bias/, an id in bias_params.glsl, a case here, a row in src/shadow/bias.cpp (docs/add_a_bias.md).
+// To add one: a file in bias/, an id in bias_params.glsl, a case here, a row in src/shadow/bias.cpp
+// (docs/add_a_bias.md).
 #ifndef GNOMON_BIAS_GLSL
 #define GNOMON_BIAS_GLSL
 

@@ -1,5 +1,4 @@
-// The methods and their parameters, without the decisions (bias.glsl), so that a change of a decision rebuilds no C++
-// but tests.
+// The biases' ids and parameters, without their code (bias.glsl), so that a change to a bias rebuilds no C++ but tests.
 #ifndef GNOMON_BIAS_PARAMS_GLSL
 #define GNOMON_BIAS_PARAMS_GLSL
 
@@ -9,8 +8,8 @@ GNOMON_SHARED_BEGIN
 
 const int kMostKnobs = 4;
 
-// The parameters of one method. Its row in src/shadow/bias.cpp lists its knobs, in this order, with names, units, ranges
-// and defaults; its file in bias/ names their places.
+// The parameters of one method. Its row in src/shadow/bias.cpp lists its knobs, in this order, with names, units,
+// ranges and defaults; its file in bias/ names their places.
 struct BiasParams {
   float knobs[kMostKnobs];
   int epsilonAt;  // kEpsilonAt*, of the adaptive methods

@@ -7,8 +7,9 @@
 //       t    -y  -y  +z  -z  -y  -y       "Vulkan 1.3", section 16.5.4, table "Cube map face and coordinate selection".
 //       m    +x  -x  +y  -y  +z  -z       Read from outside: the faces mirror what a camera would see.
 //
-// Choosing signs and components rounds nothing, so that (s, t, m) are the very bits that the layer's clipFromLight, whose
-// entries but those of depth are 0 and +-1, gives the rasterizer; and no matrix is fetched by a layer that differs from pixel to pixel.
+// Choosing signs and components rounds nothing, so that (s, t, m) are the very bits that the layer's clipFromLight,
+// whose entries but those of depth are 0 and +-1, gives the rasterizer; and no matrix is fetched by a layer that
+// differs from pixel to pixel.
 #ifndef GNOMON_CUBE_MAP_GLSL
 #define GNOMON_CUBE_MAP_GLSL
 

@@ -6,8 +6,8 @@
 
 GNOMON_SHARED_BEGIN
 
-// The grid's own index space, in which voxels have their values at whole numbers. Affine; both centres are the same point, so that what is far
-// from the world's origin keeps its digits.
+// The grid's own index space, in which voxels have their values at whole numbers. Affine; both centres are the same
+// point, so that what is far from the world's origin keeps its digits.
 struct DensityPlace {
   vec3 centerW;
   vec3 centerI;
@@ -20,12 +20,15 @@ GNOMON_FN vec3 indexDirection(DensityPlace place, vec3 dirW) {
   return place.indexFromWorld[0] * dirW.x + place.indexFromWorld[1] * dirW.y + place.indexFromWorld[2] * dirW.z;
 }
 
-GNOMON_FN vec3 indexFromWorld(DensityPlace place, vec3 posW) { return place.centerI + indexDirection(place, posW - place.centerW); }
+GNOMON_FN vec3 indexFromWorld(DensityPlace place, vec3 posW) {
+  return place.centerI + indexDirection(place, posW - place.centerW);
+}
 
 // A direction that runs along a slab leaves it, but not before 1e30 voxels: 0 / 0 would say nothing.
 GNOMON_FN float notZero(float x) { return x == 0.0f ? 1e-30f : x; }
 
-// Where a ray is within the grid's bounds: x to y metres, none where x >= y. Kay and Kajiya, "Ray tracing complex scenes", 1986: slabs.
+// Where a ray is within the grid's bounds: x to y metres, none where x >= y. Kay and Kajiya, "Ray tracing
+// complex scenes", 1986: slabs.
 GNOMON_FN vec2 rayWithinBounds(DensityPlace place, vec3 originW, vec3 dirW, float end) {
   vec3 origin = indexFromWorld(place, originW);
   vec3 dir = indexDirection(place, dirW);
@@ -37,9 +40,9 @@ GNOMON_FN vec2 rayWithinBounds(DensityPlace place, vec3 originW, vec3 dirW, floa
   return vec2(max(max(max(enter.x, enter.y), enter.z), 0.0f), min(min(min(leave.x, leave.y), leave.z), end));
 }
 
-// Directions and distances from a light that a density's bounds take up. Directions are those of one or two hemispheres about an axis, as
-// in a paraboloid map: (x, y) / (1 + |z|), which spreads them evenly to within a factor of 2. One hemisphere cut to the cone of the
-// bounds where the light is outside, both where it is within.
+// Directions and distances from a light that a density's bounds take up. Directions are those of one or two hemispheres
+// about an axis, as in a paraboloid map: (x, y) / (1 + |z|), which spreads them evenly to within a factor of 2. One
+// hemisphere cut to the cone of the bounds where the light is outside, both where it is within.
 struct LightReach {
   vec3 axisW;       // unit
   float halfWidth;  // of the layers, in units of (x, y) / (1 + |z|)
@@ -49,7 +52,8 @@ struct LightReach {
   int substeps;     // samples from one radius to the next
 };
 
-// Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+// Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an Orthonormal Basis,
+// Revisited", JCGT 6(1), 2017.
 GNOMON_FN mat3 basisAbout(vec3 axis) {
   float s = axis.z >= 0.0f ? 1.0f : -1.0f;
   float a = -1.0f / (s + axis.z);

@@ -1,20 +1,21 @@
 // Epipolar coordinates of a point light and an eye, and the voxels of a binary volume in them.
-// Wyman, "Voxelized Shadow Volumes", HPG 2011; Dou, Yan, Kerzner, Dai, Wyman, "Adaptive Depth Bias for Shadow Maps", JCGT 3(4), 2014, section 3.3.
+// Wyman, "Voxelized Shadow Volumes", HPG 2011; Dou, Yan, Kerzner, Dai, Wyman, "Adaptive Depth Bias for Shadow Maps",
+// JCGT 3(4), 2014, section 3.3.
 //
 //            P                    L is the light and the origin of the frame, E the eye at distance D,
-//           / \                   the frame's z (LightFrame::backW) runs from L to E, its y is the camera's up made perpendicular.
+//           / \                   its z (LightFrame::backW) runs from L to E, its y is the camera's up, projected.
 //        r /   \                  theta  azimuth about z, from y towards x, in [-pi, pi]
 //         /     \                 phi    angle at L between z and P
 //        /phi alp\                alpha  angle at E between E->L and E->P
 //       L---------E   z ->
 //
-// A light ray is one (theta, phi), and alpha grows along it from 0 at L; a view ray is one (theta, alpha), and phi grows
-// along it from 0 at E. phi + alpha < pi. Everywhere by atan2: acos loses half its digits where the angles are small.
-// Where L and E are one point there is no axis, and no such coordinates.
+// A light ray is one (theta, phi), and alpha grows along it from 0 at L; a view ray is one (theta, alpha), and phi
+// grows along it from 0 at E. phi + alpha < pi. Everywhere by atan2: acos loses half its digits where the angles are
+// small. Where L and E are one point there is no axis, and no such coordinates.
 //
-// Voxel (i, j, k) is the box of sides (alphaStep, thetaStep, phiStep); its centre is at (i + 0.5, j + 0.5, k + 0.5) steps. Column (j, k) is the
-// light ray through its centre. Occupancy: voxel i of a column is occluded exactly when its centre lies behind the column's
-// nearest occluder, alpha_i > alpha_occ.
+// Voxel (i, j, k) is the box of sides (alphaStep, thetaStep, phiStep); its centre is at (i + 0.5, j + 0.5, k + 0.5)
+// steps. Column (j, k) is the light ray through its centre. Occupancy: voxel i of a column is occluded exactly when its
+// centre lies behind the column's nearest occluder, alpha_i > alpha_occ.
 #ifndef GNOMON_EPIPOLAR_GLSL
 #define GNOMON_EPIPOLAR_GLSL
 
@@ -60,8 +61,8 @@ GNOMON_FN vec3 epipolarDirection(float theta, float phi) {
   return vec3(s * sin(theta), s * cos(theta), cos(phi));
 }
 
-// Metres from the light along the unit direction `dir` to where alpha is `alpha`: the law of sines, with sin(phi + alpha) = sin phi cos alpha +
-// cos phi sin alpha. Infinite where alpha reaches pi - phi.
+// Metres from the light along the unit direction `dir` to where alpha is `alpha`: the law of sines, with sin(phi +
+// alpha) = sin phi cos alpha + cos phi sin alpha. Infinite where alpha reaches pi - phi.
 GNOMON_FN float epipolarDistance(float eyeDistance, float alpha, vec3 dir) {
   float s = sin(alpha);
   float sum = sqrt(dir.x * dir.x + dir.y * dir.y) * cos(alpha) + dir.z * s;
@@ -85,7 +86,8 @@ GNOMON_FN bool thetaGoesRound(EpipolarGrid grid) {
   return (float(grid.thetaCount) + 0.5f) * grid.thetaStep > 2.0f * kPi;
 }
 
-// Steps from the lower side, never negative; theta goes round, so that what lies below the lower side may lie within from above.
+// Steps from the lower side, never negative; theta goes round, so that what lies below the lower side
+// may lie within from above.
 GNOMON_FN float thetaSteps(EpipolarGrid grid, float theta) {
   float turn = 2.0f * kPi;
   float above = theta - grid.thetaLower;
@@ -103,11 +105,12 @@ GNOMON_FN int firstOccluded(EpipolarGrid grid, float alphaOccluder) {
   return i;
 }
 
-// Where the texel with the bits phi = 128 block .. 128 block + 127 of (alpha i, theta k) lies: phi bit j is bit j % 32 of its word j / 32.
+// Where the texel with the bits phi = 128 block .. 128 block + 127 of (alpha i, theta k) lies: phi bit j is bit j
+// % 32 of its word j / 32.
 //
-// Eight neighbouring columns of texels lie side by side, 128 bytes, and on from there along alpha, so that the scan walks through memory;
-// rows of the whole theta, a power of two of bytes apart, take 1.6 times as long (1024 x 1024 x 512 on lavapipe: 5.0 copies of the volume
-// against 3.3).
+// Eight neighbouring columns of texels lie side by side, 128 bytes, and on from there along alpha, so that the scan
+// walks through memory; rows of the whole theta, a power of two of bytes apart, take 1.6 times as long (1024 x 1024 x
+// 512 on lavapipe: 5.0 copies of the volume against 3.3).
 GNOMON_FN uint epipolarTexelIndex(EpipolarGrid grid, int i, int k, int block) {
   int blocks = (k / kThetaBlock) * (grid.phiCount / kPhiBits) + block;
   return uint(blocks * grid.alphaCount + i) * uint(kThetaBlock) + uint(k % kThetaBlock);

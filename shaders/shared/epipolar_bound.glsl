@@ -1,9 +1,9 @@
-// What a triangle covers of the columns (theta, phi) of a shadow volume, as a box for the rasterizer. It may enclose more, since each
-// column is decided by its own ray (ray_triangle.glsl), never less.
+// What a triangle covers of the columns (theta, phi) of a shadow volume, as a box for the rasterizer. It may enclose
+// more, since each column is decided by its own ray (ray_triangle.glsl), never less.
 //
-// Phi is extreme at a corner, where an edge's great circle passes a pole nearest, or at a pole inside. Theta runs one way along a great
-// circle (its rate is n.z / sin^2 phi, n the circle's normal), so that it is extreme at corners; a triangle that holds no pole spans less than
-// half a turn of it, one that holds a pole all of it.
+// Phi is extreme at a corner, where an edge's great circle passes a pole nearest, or at a pole inside. Theta runs one
+// way along a great circle (its rate is n.z / sin^2 phi, n the circle's normal), so that it is extreme at corners; a
+// triangle that holds no pole spans less than half a turn of it, one that holds a pole all of it.
 #ifndef GNOMON_EPIPOLAR_BOUND_GLSL
 #define GNOMON_EPIPOLAR_BOUND_GLSL
 
@@ -24,18 +24,19 @@ const float kPoleReach = 1e-4f;
 // More than the error of a corner's theta anywhere else.
 const float kThetaDoubt = 1e-2f;
 
-// Whether a triangle holds a pole (0, 0, sign) or comes near to it. Slivers along a meridian lie in the planes of all their sides
-// with both poles: they must also hold it in the cap about their middle.
+// Whether a triangle holds a pole (0, 0, sign) or comes near to it. Slivers along a meridian lie in the planes of all
+// their sides with both poles: they must also hold it in the cap about their middle.
 GNOMON_FN bool holdsPole(LightTriangle t, vec3 ua, vec3 ub, vec3 uc, float sign_) {
-  bool within = t.sideA.z * sign_ >= -kPoleReach * length(t.sideA) && t.sideB.z * sign_ >= -kPoleReach * length(t.sideB) &&
+  bool within = t.sideA.z * sign_ >= -kPoleReach * length(t.sideA) &&
+                t.sideB.z * sign_ >= -kPoleReach * length(t.sideB) &&
                 t.sideC.z * sign_ >= -kPoleReach * length(t.sideC);
   vec3 middle = ua + ub + uc;
   float least = min(dot(ua, middle), min(dot(ub, middle), dot(uc, middle)));
   return within && (least <= 0.0f || middle.z * sign_ >= least - 2.0f * kPoleReach * length(middle));
 }
 
-// The range of phi with what the great circle through p and q adds between them: it passes +z at the angle atan2(|n.z|, |n.xy|) in the
-// direction `top`, and -z at the same in the opposite one.
+// The range of phi with what the great circle through p and q adds between them: it passes +z at the angle atan2(|n.z|,
+// |n.xy|) in the direction `top`, and -z at the same in the opposite one.
 GNOMON_FN vec2 includingArc(vec2 range, vec3 p, vec3 q) {
   vec3 n = edgePlane(p, q);
   vec3 top = vec3(-n.x * n.z, -n.y * n.z, n.x * n.x + n.y * n.y);
@@ -84,8 +85,8 @@ GNOMON_FN EpipolarBox epipolarBox(EpipolarGrid grid, LightTriangle t) {
   if (towardsEye) phi.x = 0.0f;
   if (fromEye) phi.y = kPi;
   vec2 theta = shortestStretch(atan2(t.a.x, t.a.y), atan2(t.b.x, t.b.y), atan2(t.c.x, t.c.y));
-  // 1/32 of a column for the rasterizer's own grid of 1/256. Rounding turns theta by more near the poles; no column's centre is nearer
-  // to one than half a column.
+  // 1/32 of a column for the rasterizer's own grid of 1/256. Rounding turns theta by more near the poles; no column's
+  // centre is nearer to one than half a column.
   float margin = 0.03125f;
   float aside = max(min(sin(phi.x), sin(phi.y)), 0.5f * grid.phiStep);
   float thetaMargin = margin * grid.thetaStep + kAngleRounding / aside;

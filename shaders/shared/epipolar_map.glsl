@@ -1,8 +1,8 @@
-// The columns of a shadow volume as a map: one layer, theta along u, phi along v, and depth = alpha / (the volume's upper alpha).
-// Part of shared/map.glsl, which includes it after the structs; epipolar.glsl has the coordinates.
+// The columns of a shadow volume as a map: one layer, theta along u, phi along v, and depth = alpha / (the volume's
+// upper alpha). Part of shared/map.glsl, which includes it after the structs; epipolar.glsl has the coordinates.
 //
-// Depth is 0 at the light whatever alpha the volume begins with, so that a caster before the volume still shadows all of it, and a
-// texel's ray begins at the light, where alpha is 0 on every ray.
+// Depth is 0 at the light whatever alpha the volume begins with, so that a caster before the volume still shadows all
+// of it, and a texel's ray begins at the light, where alpha is 0 on every ray.
 #ifndef GNOMON_EPIPOLAR_MAP_GLSL
 #define GNOMON_EPIPOLAR_MAP_GLSL
 

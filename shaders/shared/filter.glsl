@@ -1,14 +1,16 @@
-// A filter is a weighted set of taps: each is a texel with its own ray, decided on its own, and the verdicts are averaged
-// (percentage closer filtering: Reeves, Salesin, Cook, "Rendering Antialiased Shadows with Depth Maps", 1987).
+// Percentage-closer filtering: a filter is a weighted set of taps. Each tap is a texel with its own ray; the bias is
+// evaluated per tap, and the verdicts are averaged (Reeves, Salesin, Cook, "Rendering Antialiased Shadows with Depth
+// Maps", 1987).
 //
 //   none       the texel that holds the receiver
 //   bilinear   the 2 x 2 texels whose centres surround it, weighted by the fractions: a tent, two texels wide
-//   jitter4x4  16 points, one at random in each of 4 x 4 cells of a square around it, `width` texels wide (4: Weiskopf &
-//              Ertl 2003, section 5)
+//   jitter4x4  16 points, one at random in each of 4 x 4 cells of a square around it, `width` texels wide
+//              (4: Weiskopf & Ertl 2003, section 5)
 //
-// The same kernels over the exact shadow are what filtered results are scored against: kernelOffset.
+// Filtered results are scored against the exact shadow filtered with the same kernels (kernelOffset).
 //
-// To add one: an id, the places of its knobs, a case in filterTap and in kernelOffset here; a row in src/shadow/filter.cpp.
+// To add one: an id, the places of its knobs, a case in filterTap and in kernelOffset here; a row
+// in src/shadow/filter.cpp.
 #ifndef GNOMON_FILTER_GLSL
 #define GNOMON_FILTER_GLSL
 

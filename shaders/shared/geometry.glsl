@@ -32,10 +32,10 @@ struct SurfacePoint {
   vec3 barycentric;  // weights of the three corners, within [0,1]
 };
 
-// The weights come from the ray (Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997), but the
-// position is their sum over the corners: an error of the weights moves the point within the plane and not off it, and
-// off the plane is what a shadow test would notice. The rasterizer decides which pixels a triangle covers on a
-// grid of 1/256 pixel, so the ray may pass just outside: weights are clamped to the triangle.
+// The weights come from the ray (Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997), but
+// the position is their sum over the corners: an error of the weights moves the point within the plane and not off it,
+// and off the plane is what a shadow test would notice. The rasterizer decides which pixels a triangle covers on a grid
+// of 1/256 pixel, so the ray may pass just outside: weights are clamped to the triangle.
 GNOMON_FN SurfacePoint surfacePoint(Ray ray, vec3 a, vec3 b, vec3 c) {
   vec3 ab = b - a;
   vec3 ac = c - a;

@@ -1,5 +1,5 @@
-// The glue that lets one text be GLSL and C++: the only file with #ifdef __cplusplus.
-// The dialect that all three compilers accept is in docs/shared_glsl.md.
+// Macros that make one source both GLSL and C++: the only file with #ifdef __cplusplus. The dialect that all three
+// compilers accept is in docs/shared_glsl.md.
 #ifndef GNOMON_LANG_GLSL
 #define GNOMON_LANG_GLSL
 
@@ -22,8 +22,9 @@
 #define GNOMON_CPP_ONLY(text) text
 #define GNOMON_GLSL_ONLY(text)
 #define GNOMON_PRECISE
-// An array that is a member of a struct in C++ and stands alone in a buffer in GLSL: a struct that is passed by value
-// and indexed by a variable would be copied to memory by every shader invocation (measured: a visibility pass 3 to 5 times slower).
+// An array that is a member of a struct in C++ and stands alone in a buffer in GLSL: a struct that is passed by
+// value and indexed by a variable would be copied to memory by every shader invocation (measured: a visibility
+// pass 3 to 5 times slower).
 #define GNOMON_MEMBER_ARRAY(object, array) (object).array
 
 GNOMON_SHARED_BEGIN

@@ -24,11 +24,11 @@ const int kMapPlanar = 0;      // spot and directional: one clipFromLight matrix
 const int kMapCube = 1;        // six faces, hyperbolic depth: z/w of the face's own projection
 const int kMapCubeRadial = 2;  // six faces, depth linear in the distance from the light
 const int kMapParaboloid = 3;  // two hemispheres, depth linear in the distance from the light
-const int kMapEpipolar = 4;    // one layer of light rays (theta, phi), depth grows with alpha: the columns of a shadow volume
+const int kMapEpipolar = 4;    // the columns of a shadow volume: light rays (theta, phi), depth grows with alpha
 const int kMaxMapLayers = 6;
 
-// A shader of one kind of map defines GNOMON_MAP_KIND, a constant: the branches below are then decided before any function is inlined, and
-// the other kinds' code is gone from its pipelines (src/gpu/specialize.h).
+// A shader of one kind of map defines GNOMON_MAP_KIND, a constant: the branches below are then decided before any
+// function is inlined, and the other kinds' code is gone from its pipelines (src/gpu/specialize.h).
 #ifdef GNOMON_MAP_KIND
 #define mapKind(map) GNOMON_MAP_KIND
 #else
@@ -46,16 +46,20 @@ struct ShadowMap {
   int side;          // texels along u
   int rows;          // texels along v: as many, but in epipolar maps
   float sceneScale;  // metres: the diagonal of the scene's bounds
-  float zNear;       // metres, where depth is 0 and 1: along a cube face's axis, or from the light where depth is radial;
-  float zFar;        // a planar map has them in its matrices
-  vec2 clipDepth;    // cube faces: z_clip = m * clipDepth.x + clipDepth.y; in the buffer, because a shader's optimizer that sees what
-                     // it is made of factors the sum, and then the bits are no longer the rasterizer's
+  // Metres, where depth is 0 and 1: along a cube face's axis, or from the light where depth is radial. A planar map has
+  // them in its matrices.
+  float zNear;
+  float zFar;
+  // Cube faces: z_clip = m * clipDepth.x + clipDepth.y. In the buffer, because a shader's optimizer that sees what it
+  // is made of factors the sum, and then the bits are no longer the rasterizer's.
+  vec2 clipDepth;
   EpipolarGrid epipolar;
   GNOMON_CPP_ONLY(MapLayer mapLayers[kMaxMapLayers];)
 };
 
-// A fitted map as a uniform buffer: lavapipe reads those once for all pixels of a group, where a storage buffer is read pixel by
-// pixel (measured: the visibility pass 1.7 times slower). In GLSL it is declared member by member (GNOMON_MEMBER_ARRAY in lang.glsl says why).
+// A fitted map as a uniform buffer: lavapipe reads those once for all pixels of a group, where a storage buffer is read
+// pixel by pixel (measured: the visibility pass 1.7 times slower). In GLSL it is declared member by member
+// (GNOMON_MEMBER_ARRAY in lang.glsl says why).
 GNOMON_CPP_ONLY(struct MapUniforms {
   LightFrame lightFrame;
   ShadowMap shadowMap;
@@ -172,15 +176,16 @@ GNOMON_FN vec2 mapTexelCounts(ShadowMap map) { return vec2(float(map.side), floa
 
 // The texel that holds uv; uv = 1 belongs to the last one.
 GNOMON_FN ivec2 mapTexel(ShadowMap map, vec2 uv) {
-  return ivec2(clamp(int(floor(uv.x * float(map.side))), 0, map.side - 1), clamp(int(floor(uv.y * float(map.rows))), 0, map.rows - 1));
+  return ivec2(clamp(int(floor(uv.x * float(map.side))), 0, map.side - 1),
+               clamp(int(floor(uv.y * float(map.rows))), 0, map.rows - 1));
 }
 
 GNOMON_FN vec2 mapTexelCenter(ShadowMap map, ivec2 texel) {
   return vec2((float(texel.x) + 0.5f) / float(map.side), (float(texel.y) + 0.5f) / float(map.rows));
 }
 
-// Whether a layer draws a texel of its rectangle, by the centre in texels, which the rasterizer has at hand: with the texel's numbers
-// instead, the exact drawing of a paraboloid took a sixteenth longer.
+// Whether a layer draws a texel of its rectangle, by the centre in texels, which the rasterizer has at hand: with the
+// texel's numbers instead, the exact drawing of a paraboloid took a sixteenth longer.
 GNOMON_FN bool mapHoldsTexelAt(ShadowMap map, vec2 center) {
   return map.kind != kMapParaboloid || paraboloidHoldsTexelAt(map, center);
 }
@@ -197,10 +202,10 @@ struct MapTexel {
   bool held;  // by some layer
 };
 
-// The texel that a look-up for a receiver at posL means, which may lie beyond its layer's edge: there the ray of the missing
-// texel, by the same formula continued, is followed to where it passes the receiver, and that point looked up in whatever
-// layer holds it. So a filter that crosses a cube's edge, a paraboloid's rim, a cascade's border or theta's seam reads what
-// the light sees there.
+// The texel that a look-up for a receiver at posL means, which may lie beyond its layer's edge: there the ray of the
+// missing texel, by the same formula continued, is followed to where it passes the receiver, and that point looked up
+// in whatever layer holds it. So a filter that crosses a cube's edge, a paraboloid's rim, a cascade's border or theta's
+// seam reads what the light sees there.
 GNOMON_FN MapTexel mapTexelAcross(ShadowMap map, int layer, ivec2 texel, vec3 posL) {
   MapTexel found;
   found.layer = layer;

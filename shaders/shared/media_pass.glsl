@@ -23,21 +23,18 @@ const int kBindEyeDepth = 28;     // float a pixel: metres times density to the 
 const int kMediaGroupSide = 8;    // pixels; the work group is square
 const int kTableGroupSize = 8;    // rows of the table
 
-// How bits are integrated.
-const int kIntegrateRuns = 0;
-const int kIntegrateBits = 1;
-const int kIntegratePopcount = 2;
-
-// Of the table of the running integral. Rows between the volume's lowest and highest alpha, both of which have one. Swept against double
-// quadratures without occluders (D 0.1 to 30 m, rays to 20 m, sigmaT 0.002 to 0.3 /m, g 0.2 and 0.8, 0.9 rad of alpha in front, aside, and to the
-// antipode): with 257 rows a ray's whole is within 8.3e-4 of itself, 2e-5 rms; 129 rows: 3.4e-3; 257 columns: 2.5e-3; 513 rows: no better. In
-// thicker fog (0.6 /m, g -0.6) 257 rows are off by 1.6e-3 beside the light, and half as many again stay below 1e-3 there, too.
+// Of the table of the running integral. Rows between the volume's lowest and highest alpha, both of which have one.
+// Swept against double quadratures without occluders (D 0.1 to 30 m, rays to 20 m, sigmaT 0.002 to 0.3 /m, g 0.2 and
+// 0.8, 0.9 rad of alpha in front, aside, and to the antipode): with 257 rows a ray's whole is within 8.3e-4 of itself,
+// 2e-5 rms; 129 rows: 3.4e-3; 257 columns: 2.5e-3; 513 rows: no better. In thicker fog (0.6 /m, g -0.6) 257 rows are
+// off by 1.6e-3 beside the light, and half as many again stay below 1e-3 there, too.
 const int kTableRows = 385;
 const int kTableColumns = 513;
 
-// Of the table of density between the light and points about it: directions a side of a layer, whose outer ones lie on its border, and radii.
-// Turbulence of 128 voxels along the scene with the lamp amid it, rms of the picture against depths summed anew, in thousandths of the mean: 1.6; 64 radii
-// of 64 x 64: 5.1; 32 radii of 128 x 128: 3.1, of 64 x 64: 5.8, 16 of 32 x 32: 25.
+// Of the table of density between the light and points about it: directions a side of a layer, whose outer ones lie on
+// its border, and radii. Turbulence of 128 voxels along the scene with the lamp amid it, rms of the picture against
+// depths summed anew, in thousandths of the mean: 1.6; 64 radii of 64 x 64: 5.1; 32 radii of 128 x 128: 3.1, of 64 x
+// 64: 5.8, 16 of 32 x 32: 25.
 const int kLightDepthSide = 128;
 const int kLightDepthRadii = 64;
 

@@ -1,8 +1,10 @@
-// Four corners that enclose what a triangle covers of a layer of a paraboloid map, on the layer's plane (x, y), rim at 1: what the
-// rasterizer is given. It may enclose more, since each texel is decided by its own ray (ray_triangle.glsl), never less.
+// Four corners that enclose what a triangle covers of a layer of a paraboloid map, on the layer's plane (x, y), rim at
+// 1: what the rasterizer is given. It may enclose more, since each texel is decided by its own ray
+// (ray_triangle.glsl), never less.
 //
 // Great circles project to circles: with n = (n.x, n.y, n.w) unit (w along the layer's axis) and c = (n.x, n.y)/n.w
-//     n . (2 x, 2 y, 1 - x^2 - y^2) = 0      is the circle about c of radius 1/|n.w|, which meets the rim at two opposite points.
+//     n . (2 x, 2 y, 1 - x^2 - y^2) = 0
+// is the circle about c of radius 1/|n.w|, which meets the rim at two opposite points.
 #ifndef GNOMON_PARABOLOID_BOUND_GLSL
 #define GNOMON_PARABOLOID_BOUND_GLSL
 
@@ -35,8 +37,8 @@ GNOMON_FN float arcBulge(vec3 p, vec3 q, vec2 chord) {
   return half2 * sqrt(curvature2) / (1.0f + sqrt(max(1.0f - half2 * curvature2, 0.0f)));
 }
 
-// All corners in the hemisphere: the triangle of the chords, widened by the largest bulge and `margin`. That is either the triangle
-// grown about the centre of its inner circle, or a box along its longest side, whichever is smaller.
+// All corners in the hemisphere: the triangle of the chords, widened by the largest bulge and `margin`. That is either
+// the triangle grown about the centre of its inner circle, or a box along its longest side, whichever is smaller.
 GNOMON_FN QuadBound chordBound(vec2 a, vec2 b, vec2 c, float widen) {
   vec2 ab = b - a;
   vec2 bc = c - b;
@@ -85,15 +87,15 @@ GNOMON_FN Box2 including(Box2 box, vec2 p) {
   return box;
 }
 
-// Whether a direction on the great circle through p and q lies between them; a hundred-thousandth of a radian more, since what
-// lies just beyond an end is as far out as the end.
+// Whether a direction on the great circle through p and q lies between them; a hundred-thousandth of a radian more,
+// since what lies just beyond an end is as far out as the end.
 GNOMON_FN bool isOnArc(vec3 normal, vec3 p, vec3 q, vec2 at) {
   vec3 dir = vec3(2.0f * at.x, 2.0f * at.y, 1.0f - dot(at, at));
   return dot(cross(normal, p), dir) >= -1e-5f * length(p) && dot(cross(q, normal), dir) >= -1e-5f * length(q);
 }
 
-// Where the circle of `normal` reaches farthest along e: c + e / |n.w|. Along e that is (1 + s)/|n.w| with s = +-n.e, and where s nears
-// -1, 1 + s = (n.w^2 + (n.e')^2) / (1 - s) keeps its digits; e' stands across e.
+// Where the circle of `normal` reaches farthest along e: c + e / |n.w|. Along e that is (1 + s)/|n.w| with s = +-n.e,
+// and where s nears -1, 1 + s = (n.w^2 + (n.e')^2) / (1 - s) keeps its digits; e' stands across e.
 GNOMON_FN Box2 includingExtreme(Box2 box, vec3 normal, vec3 p, vec3 q, vec2 e, float rim2) {
   float w = abs(normal.z);
   if (w == 0.0f) return box;  // a straight line reaches farthest at its ends
@@ -131,8 +133,8 @@ GNOMON_FN Box2 includingEdge(Box2 box, vec3 p, vec3 q, float rim) {
   return box;
 }
 
-// Some corners behind the light: the box of the part within the rim, whose outermost points are corners, places where an arc
-// runs farthest or crosses the rim, and places of the rim inside the triangle.
+// Some corners behind the light: the box of the part within the rim, whose outermost points are corners, places where
+// an arc runs farthest or crosses the rim, and places of the rim inside the triangle.
 GNOMON_FN QuadBound rimBound(int layer, LightTriangle triangle, vec3 a, vec3 b, vec3 c, float rim, float margin) {
   Box2 box;
   box.low = vec2(2.0f, 2.0f);

@@ -1,22 +1,25 @@
-// Dual paraboloid maps: two layers, each a hemisphere around a point light, depth linear in the distance from the light.
-// Heidrich, Seidel, "View-independent environment maps", 1998; Brabec, Annen, Seidel, "Shadow Mapping for Hemispherical and
-// Omnidirectional Light Sources", 2002. Part of shared/map.glsl, which includes it after the structs.
+// Dual paraboloid maps: two layers, each a hemisphere around a point light, depth linear in the
+// distance from the light.
+// Heidrich, Seidel, "View-independent environment maps", 1998; Brabec, Annen, Seidel, "Shadow Mapping for Hemispherical
+// and Omnidirectional Light Sources", 2002. Part of shared/map.glsl, which includes it after the structs.
 //
 //     layer 0 looks along -z of L, layer 1 along +z; on both, with d the unit direction and w = |d.z|
 //
 //       (x, y) = (d.x, d.y) / (1 + w)        u = (1 + x)/2, v = (1 - y)/2
 //
-//         +-----------+   w > 0 is the disc x^2 + y^2 < 1. This is the stereographic projection from the opposite pole: circles
-//         |  .-----.  |   on the sphere stay circles, so a triangle's straight edge, a great circle, becomes a circular arc,
-//         | /       \ |   and angles are kept. Its inverse needs no root:
+//         +-----------+   w > 0 is the disc x^2 + y^2 < 1. This is the stereographic projection from the opposite
+//         |  .-----.  |   pole: circles on the sphere stay circles, so a triangle's straight edge, a great circle,
+//         | /       \ |   becomes a circular arc, and angles are kept. Its inverse needs no root:
 //         | |   +   | |
 //         | \       / |   d = (2 x, 2 y, 1 - x^2 - y^2) / (1 + x^2 + y^2)     (third component along the layer's axis)
 //         |  '-----'  |
 //         +-----------+   Beyond the rim the same formula goes on over the other hemisphere.
 //
-// A texel that the disc touches is drawn, with its own centre's ray, be it beyond the rim; the rest of the square stays empty.
+// A texel that the disc touches is drawn, with its own centre's ray, be it beyond the rim; the rest of
+// the square stays empty.
 //
-// Differs from Dou et al. 2014, which has R = (x, y, (1 - x^2 - y^2)/2): that vector's length is (1 + x^2 + y^2)/2, and R must be unit.
+// Differs from Dou et al. 2014, which has R = (x, y, (1 - x^2 - y^2)/2): that vector's length is (1 + x^2 +
+// y^2)/2, and R must be unit.
 #ifndef GNOMON_PARABOLOID_MAP_GLSL
 #define GNOMON_PARABOLOID_MAP_GLSL
 
@@ -49,15 +52,17 @@ GNOMON_FN Ray paraboloidTexelRay(ShadowMap map, int layer, vec2 uv) {
   return ray;
 }
 
-GNOMON_FN float paraboloidDepth(ShadowMap map, vec3 posL) { return (length(posL) - map.zNear) / (map.zFar - map.zNear); }
+GNOMON_FN float paraboloidDepth(ShadowMap map, vec3 posL) {
+  return (length(posL) - map.zNear) / (map.zFar - map.zNear);
+}
 
 GNOMON_FN float paraboloidDepthSlope(ShadowMap map) { return 1.0f / (map.zFar - map.zNear); }
 
 GNOMON_FN float paraboloidDistance(ShadowMap map, float depth) { return depth * (map.zFar - map.zNear); }
 
-// Whether the disc touches the texel around `center` (texels): the nearest point of its square lies within the rim. A millionth is in
-// hand for the rounding of paraboloidProject, so that every point it covers lies on a texel that is drawn. Lengths in half texels
-// from the layer's centre, without rounding.
+// Whether the disc touches the texel around `center` (texels): the nearest point of its square lies within the rim. A
+// millionth is in hand for the rounding of paraboloidProject, so that every point it covers lies on a texel that is
+// drawn. Lengths in half texels from the layer's centre, without rounding.
 GNOMON_FN bool paraboloidHoldsTexelAt(ShadowMap map, vec2 center) {
   float side = float(map.side);
   float x = max(abs(2.0f * center.x - side) - 1.0f, 0.0f);

@@ -1,9 +1,10 @@
 // Triangles cut into pieces whose edges are nearly straight on a layer of a paraboloid map.
 //
-// An edge's arc has the curvature |n.w| (paraboloid_bound.glsl) and leaves its chord by the sagitta, at most |n.w| chord^2 / 4: cut in
-// the middle, a quarter of that is left on each side. So a triangle is cut in two from the middle of the edge that bends most to the
-// corner opposite, and its halves again, until no edge bends too much. Where an edge is cut depends on its two ends alone and not on
-// which comes first: triangles that share it are cut alike, and no crack opens.
+// An edge's arc has the curvature |n.w| (paraboloid_bound.glsl) and leaves its chord by the sagitta, at most |n.w|
+// chord^2 / 4: cut in the middle, a quarter of that is left on each side. So a triangle is cut in two from the
+// middle of the edge that bends most to the corner opposite, and its halves again, until no edge bends too much.
+// Where an edge is cut depends on its two ends alone and not on which comes first: triangles that share it are cut
+// alike, and no crack opens.
 #ifndef GNOMON_PARABOLOID_PIECES_GLSL
 #define GNOMON_PARABOLOID_PIECES_GLSL
 
@@ -16,7 +17,8 @@ struct Piece {
   vec2 uvA, uvB, uvC;
 };
 
-// The place on an edge that halves its angle at the light: on (p, q) at |p| : |q|. Without fused products it is the same for (q, p).
+// The place on an edge that halves its angle at the light: on (p, q) at |p| : |q|. Without fused products it
+// is the same for (q, p).
 GNOMON_FN vec3 arcMiddle(vec3 p, vec3 q) {
   GNOMON_PRECISE float lp = length(p);
   GNOMON_PRECISE float lq = length(q);
@@ -32,14 +34,14 @@ GNOMON_FN vec2 arcMiddleUv(vec3 p, vec3 q, vec2 uvP, vec2 uvQ) {
   return (uvP * lq + uvQ * lp) * (1.0f / (lp + lq));
 }
 
-// Where what is drawn with straight edges ends. Centres of held texels lie up to 1.42 / side beyond the rim. Edges whose bend is
-// measured have chords of at most c^2 = 9.7 / side: bent at most 1 / side they span 8 / side on a circle of radius 1, and where they run
-// straight their depth bounds them, which with t = tan of the angle from the light's nearest point of the line bends by
-// (1 + 2 t^2) / (1 + t) > 0.83 of what a shift makes up for.
-//  - An edge with both ends out here is not measured, and is as long as two that are: drawn straight it runs up to (2 c)^2 / 8 =
-//    4.9 / side nearer to the centre than its ends.
-//  - The rasterizer cuts where the square of the distance to the centre, interpolated, exceeds the rim's; within a triangle it is up to
-//    c^2 / 3 too much, which is 1.6 / side of distance.
+// Where what is drawn with straight edges ends. Centres of held texels lie up to 1.42 / side beyond the rim. Edges
+// whose bend is measured have chords of at most c^2 = 9.7 / side: bent at most 1 / side they span 8 / side on a circle
+// of radius 1, and where they run straight their depth bounds them, which with t = tan of the angle from the light's
+// nearest point of the line bends by (1 + 2 t^2) / (1 + t) > 0.83 of what a shift makes up for.
+//  - An edge with both ends out here is not measured, and is as long as two that are: drawn straight it runs up to
+//    (2 c)^2 / 8 = 4.9 / side nearer to the centre than its ends.
+//  - The rasterizer cuts where the square of the distance to the centre, interpolated, exceeds the rim's; within a
+//    triangle it is up to c^2 / 3 too much, which is 1.6 / side of distance.
 GNOMON_FN float drawnRim(int side) { return 1.0f + 6.5f / float(side); }
 
 // Along the layer's axis over distance, where what is drawn ends; bounds need no more than the texels and half of one.
@@ -51,8 +53,9 @@ GNOMON_FN float piecesRimW(int side, bool drawnStraight) {
 // Wider than two discs; the wider the angle the more, so that the longest edge is cut first.
 GNOMON_FN float bendBeyondMeasure(vec3 p, vec3 q) { return 5.0f - dot(p, q) / (length(p) * length(q)); }
 
-// How far, on the layer's plane, an edge drawn straight is from where it belongs. Ends in the layer's frame. Nothing of an edge
-// beyond the rim is seen; of one that reaches there the projection may be anywhere until it spans less than 60 degrees.
+// How far, on the layer's plane, an edge drawn straight is from where it belongs. Ends in the layer's frame.
+// Nothing of an edge beyond the rim is seen; of one that reaches there the projection may be anywhere until it
+// spans less than 60 degrees.
 GNOMON_FN float edgeBend(vec3 p, vec3 q, float rimW) {
   float lp = length(p);
   float lq = length(q);
@@ -125,7 +128,8 @@ GNOMON_FN PieceHalves halvesOf(int side, int layer, Piece piece, bool drawnStrai
   return halves;
 }
 
-// Second halves that wait for the first ones to be finished; the pieces of a triangle of 180 degrees are 2^-12 of that at this depth.
+// Second halves that wait for the first ones to be finished; the pieces of a triangle of 180 degrees are
+// 2^-12 of that at this depth.
 const int kMostWaiting = 24;
 
 // A piece may be drawn with straight edges where all of them stay within half a texel, which is 1 / side.
@@ -141,11 +145,11 @@ GNOMON_FN bool isBeyondRim(int side, int layer, Piece piece) {
          piece.c.z * axis < rimW * length(piece.c);
 }
 
-// What must be wasted before a piece is cut in two: texels, and a share of the bound, since halves have more rim than the whole, and the
-// rasterizer shades it in blocks. Swept on lavapipe (processor time of two layers of 1774 x 1774 texels, medians of 9 interleaved
-// rounds, against no cuts), at 256, 1024 and 4096 texels: a level of one mesh 0.83, 0.83, 0.80; a furnished court 0.83, 0.78, 0.79; a
-// scene of small casters 0.97, 0.98, 1.02; instances of dense solids 0.98, 0.93, 0.95. So it is the cutting that pays, hardly
-// where it ends.
+// What must be wasted before a piece is cut in two: texels, and a share of the bound, since halves have more rim than
+// the whole, and the rasterizer shades it in blocks. Swept on lavapipe (processor time of two layers of 1774 x 1774
+// texels, medians of 9 interleaved rounds, against no cuts), at 256, 1024 and 4096 texels: a level of one mesh 0.83,
+// 0.83, 0.80; a furnished court 0.83, 0.78, 0.79; a scene of small casters 0.97, 0.98, 1.02; instances of dense solids
+// 0.98, 0.93, 0.95. So it is the cutting that pays, hardly where it ends.
 const float kWastedTexels = 1024.0f;
 const float kWastedShare = 0.5f;
 
@@ -175,7 +179,8 @@ GNOMON_FN bool isWorthHalving(int side, int layer, Piece piece, QuadBound bound)
   float worst = worstBend(bends);
   // A quarter of a texel's bend is nothing to gain by.
   if (worst * float(side) < 0.5f) return false;
-  // The middle of an edge that passes nearer to the light than a 32nd of its ends is rounded by more than the bound's margin.
+  // The middle of an edge that passes nearer to the light than a 32nd of its ends is rounded by more
+  // than the bound's margin.
   vec3 p = bends.a == worst ? b : (bends.b == worst ? c : a);
   vec3 q = bends.a == worst ? c : (bends.b == worst ? a : b);
   return length(arcMiddle(p, q)) * 64.0f > length(p) + length(q);

@@ -1,5 +1,6 @@
 // Spot and directional maps, and every warp and cascade of them: one general projective matrix a layer.
-// Part of shared/map.glsl, which includes it after the structs. Akenine-Moeller, Haines, Hoffman, "Real-Time Rendering", 3rd edition, section 9.1.4.
+// Part of shared/map.glsl, which includes it after the structs. Akenine-Moeller, Haines, Hoffman, "Real-Time
+// Rendering", 3rd edition, section 9.1.4.
 #ifndef GNOMON_PLANAR_MAP_GLSL
 #define GNOMON_PLANAR_MAP_GLSL
 

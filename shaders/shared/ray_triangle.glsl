@@ -1,10 +1,11 @@
 // Rays from the light against triangles in L: which rays meet a triangle, and where.
 //
-// A ray along d meets (a, b, c) where d lies on the inner side of the three planes through the light and an edge. A plane's normal is
-// a x b = (a + b) x (b - a) / 2. The right form loses no digits where the edge is short, and changes its sign and nothing else when a
-// and b are exchanged: two triangles that share an edge get opposite bits of the very same number, so that no ray slips between them.
-// Davidovic, Engelhardt, Georgiev, Slusallek, Dachsbacher, "3D Rasterization: A Bridge between Rasterization and Ray Casting",
-// Graphics Interface 2012, section 3; the difference form as in Embree's robust mode.
+// A ray along d meets (a, b, c) where d lies on the inner side of the three planes through the light and an edge. A
+// plane's normal is a x b = (a + b) x (b - a) / 2. The right form loses no digits where the edge is short, and changes
+// its sign and nothing else when a and b are exchanged: two triangles that share an edge get opposite bits of the very
+// same number, so that no ray slips between them.
+// Davidovic, Engelhardt, Georgiev, Slusallek, Dachsbacher, "3D Rasterization: A Bridge between Rasterization and Ray
+// Casting", Graphics Interface 2012, section 3; the difference form as in Embree's robust mode.
 #ifndef GNOMON_RAY_TRIANGLE_GLSL
 #define GNOMON_RAY_TRIANGLE_GLSL
 
@@ -55,11 +56,13 @@ GNOMON_FN bool isWithin(vec3 distances) {
          distances.x + distances.y + distances.z > 0.0f;
 }
 
-// The triangle's plane as n with n.p = 1 on it, so that a ray along d meets it at 1/(n.d) metres: one product and one division a texel.
+// The triangle's plane as n with n.p = 1 on it, so that a ray along d meets it at 1/(n.d) metres: one product
+// and one division a texel.
 //
-// An error of n moves the meeting by itself times the way from a corner. The cross product of two float edges is off by 2^-24
-// times the triangle's slenderness (longest edge squared over twice the area), and a slender triangle is long; so it is taken of the unrounded
-// edges, to twice the digits. Dekker, "A floating-point technique for extending the available precision", 1971; Knuth, TAOCP 2, 4.2.2.
+// An error of n moves the meeting by itself times the way from a corner. The cross product of two float edges is off by
+// 2^-24 times the triangle's slenderness (longest edge squared over twice the area), and a slender triangle is long; so
+// it is taken of the unrounded edges, to twice the digits. Dekker, "A floating-point technique for extending the
+// available precision", 1971; Knuth, TAOCP 2, 4.2.2.
 struct Twofold {
   vec3 high, low;  // their unrounded sum is meant
 };

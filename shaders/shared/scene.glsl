@@ -1,4 +1,4 @@
-// What the shaders know of a scene: the tables SceneBuffers (src/scene/scene_buffers.h) fills.
+// The scene as the shaders see it: tables filled by SceneBuffers (src/scene/scene_buffers.h).
 #ifndef GNOMON_SCENE_GLSL
 #define GNOMON_SCENE_GLSL
 
@@ -33,8 +33,8 @@ struct SceneMaterial {
   int doubleSided;
 };
 
-// A pixel of the G-buffer: which triangle of which instance. The first word is 0 where nothing was drawn. On the GPU triangles
-// are counted through the whole array; what the CPU gets back (downloadPrimitiveIds) counts within the mesh.
+// A pixel of the G-buffer: which triangle of which instance. The first word is 0 where nothing was drawn. On the GPU
+// triangles are counted through the whole array; what the CPU gets back (downloadPrimitiveIds) counts within the mesh.
 struct PrimitiveId {
   uint instancePlusOne;
   uint triangle;

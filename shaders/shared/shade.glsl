@@ -1,4 +1,4 @@
-// What the visibility pass reads and writes.
+// Bindings and structs of the visibility pass.
 #ifndef GNOMON_SHADE_GLSL
 #define GNOMON_SHADE_GLSL
 

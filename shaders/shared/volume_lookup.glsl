@@ -1,17 +1,20 @@
-// Which voxel of its column decides whether a receiver is lit: the biases of a shadow volume, which knows one bit a voxel and no depths.
+// The biases of a shadow volume, which has one bit a voxel and no depths: they choose the voxel that decides whether a
+// receiver is lit.
 // Dou, Yan, Kerzner, Dai, Wyman, "Adaptive Depth Bias for Shadow Maps", JCGT 3(4), 2014, section 3.3, Algorithm 2.
 //
 //   none       the voxel that holds the receiver
 //   constant   the voxel that holds the receiver moved `offset` metres towards the light along the column's ray
-//   adaptive   F' is where the column's ray meets the receiver's plane, and i the voxel that holds it: voxel i where F' is at or behind the
-//              centre of i, else its neighbour nearer the light. With the occupancy rule (alpha_i > alpha_occ) that is exact wherever
-//              nothing but the receiver's plane is in the way: the chosen voxel's centre is the last that is not behind F'.
+//   adaptive   F' is where the column's ray meets the receiver's plane, and i the voxel that holds it: voxel i where
+//              F' is at or behind the centre of i, else its neighbour nearer the light. With the occupancy rule
+//              (alpha_i > alpha_occ) that is exact wherever nothing but the receiver's plane is in the way: the chosen
+//              voxel's centre is the last that is not behind F'.
 //
 //        |  i-1  |   i   |  i+1  |      alpha grows away from the light
 //        |   .   |   .   |   .   |      centres
 //               F'                      before the centre of i: look up i-1
 //
-// The bit of a column without occluder is 0 throughout, and a voxel before the first (-1) is lit: there is nothing of the column.
+// The bit of a column without occluder is 0 throughout, and a voxel before the first (-1) is lit: there
+// is nothing of the column.
 #ifndef GNOMON_VOLUME_LOOKUP_GLSL
 #define GNOMON_VOLUME_LOOKUP_GLSL
 
@@ -22,10 +25,11 @@
 
 GNOMON_SHARED_BEGIN
 
-// What the alphas of two points on one plane and one ray may differ by though they are the same, radians. Each is an atan2 of arguments good
-// to a few 2^-24, and its polynomial rounds by some ulps of pi more (2.4e-7 each); the occluder's was divided and multiplied by the upper
-// alpha, two more. Eight ulps of pi in all: a six hundredth of a voxel where 1024 of them span pi. The paper's epsilon is metres and says nothing here,
-// since far from light and eye many metres are less than an ulp of alpha.
+// What the alphas of two points on one plane and one ray may differ by though they are the same, radians. Each is an
+// atan2 of arguments good to a few 2^-24, and its polynomial rounds by some ulps of pi more (2.4e-7 each); the
+// occluder's was divided and multiplied by the upper alpha, two more. Eight ulps of pi in all: a six hundredth of a
+// voxel where 1024 of them span pi. The paper's epsilon is metres and says nothing here, since far from light and eye
+// many metres are less than an ulp of alpha.
 const float kAlphaRounding = 2e-6f;
 
 GNOMON_FN int voxelHolding(EpipolarGrid grid, float alpha) {
@@ -47,12 +51,14 @@ GNOMON_FN float adaptiveAlpha(ShadowMap map, BiasParams params, Receiver receive
 GNOMON_FN float constantAlpha(ShadowMap map, BiasParams params, Receiver receiver, Ray ray) {
   float depth = mapDepth(map, 0, receiver.posL);
   float along = mapDistance(map, 0, ray, depth);
-  if (along < uintBitsToFloat(0x7f800000u)) depth = mapDepth(map, 0, ray.dir * max(along - params.knobs[kConstantOffset], 0.0f));
+  if (along < uintBitsToFloat(0x7f800000u))
+    depth = mapDepth(map, 0, ray.dir * max(along - params.knobs[kConstantOffset], 0.0f));
   return depth * alphaUpper(map.epipolar);
 }
 
 // The voxel of the column through `ray` whose bit decides; -1: lit. An unknown method sets `known` to false.
-GNOMON_FN int decidingVoxel(int method, ShadowMap map, BiasParams params, Receiver receiver, Ray ray, GNOMON_OUT(bool) known) {
+GNOMON_FN int decidingVoxel(int method, ShadowMap map, BiasParams params, Receiver receiver, Ray ray,
+                            GNOMON_OUT(bool) known) {
   known = true;
   switch (method) {
     case kBiasNone:

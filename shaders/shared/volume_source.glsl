@@ -1,6 +1,7 @@
-// The nearest occluder of a column of a shadow volume, as alpha, from what a map of the same light stores. Two kinds of map: the columns'
-// own, where each column's ray has met the scene itself, and any other, in which the ray is looked up. There a column is hidden from where the
-// map's depth along the ray is what the texel stores: the very answer of that map, without bias, for every point of the column.
+// The nearest occluder of a column of a shadow volume, as an alpha, from a map of the same light. There are two kinds
+// of source: the columns' own map, rasterized with one ray-triangle test a column, and any other map, in which the
+// column's ray is looked up. In the latter the column is occluded from where the map's depth along the ray equals the
+// stored depth: exactly that map's shadow test, without bias, for every point of the column.
 #ifndef GNOMON_VOLUME_SOURCE_GLSL
 #define GNOMON_VOLUME_SOURCE_GLSL
 
@@ -19,7 +20,8 @@ GNOMON_FN vec3 sourceDirection(LightFrame volumeFrame, LightFrame sourceFrame, v
   return directionFromWorld(sourceFrame, dirW);
 }
 
-// `depth`: what the texel at `point` stores, which is mapProject of dirS, the column's direction dirL in the map's frame.
+// `depth`: what the texel at `point` stores, which is mapProject of dirS, the column's direction
+// dirL in the map's frame.
 GNOMON_FN float alphaLookedUp(ShadowMap source, MapPoint point, float depth, vec3 dirS, vec3 dirL, float eyeDistance) {
   if (!point.covered || depth >= 1.0f) return noOccluder();
   Ray ray = mapTexelRay(source, point.layer, point.uv);
@@ -28,7 +30,9 @@ GNOMON_FN float alphaLookedUp(ShadowMap source, MapPoint point, float depth, vec
 }
 
 // `depth`: what the columns' own map stores.
-GNOMON_FN float alphaDrawn(EpipolarGrid grid, float depth) { return depth < 1.0f ? depth * alphaUpper(grid) : noOccluder(); }
+GNOMON_FN float alphaDrawn(EpipolarGrid grid, float depth) {
+  return depth < 1.0f ? depth * alphaUpper(grid) : noOccluder();
+}
 
 GNOMON_SHARED_END
 #endif

@@ -1,4 +1,4 @@
-// The picture: what surfaces send through the medium, and what the medium scatters.
+// The final picture: surface radiance attenuated by the medium, plus in-scattered light.
 #include "shared/media_pass.glsl"
 
 layout(local_size_x = kMediaGroupSide, local_size_y = kMediaGroupSide) in;

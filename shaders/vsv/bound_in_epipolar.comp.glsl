@@ -1,5 +1,5 @@
-// The triangles that a shadow volume's columns show, one invocation each: a box around each in (theta, phi), and for one over the seam of
-// theta another, a turn lower.
+// The triangles that a shadow volume's columns show, one invocation each: a box around each in (theta, phi), and for
+// one over the seam of theta another, a turn lower.
 #include "shared/bounded_triangle.glsl"
 #include "shared/epipolar_bound.glsl"
 

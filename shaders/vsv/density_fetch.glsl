@@ -13,8 +13,8 @@ layout(scalar, binding = kBindDensityPlace) uniform PlacedDensity { DensityPlace
 
 // Trilinear, and not below 0.
 //
-// The eight voxels about a point lie in one leaf of 8^3 voxels, or where the cell passes from one leaf to the next, in as many as it touches:
-// the tree is walked down once for each of those, and not for each voxel.
+// The eight voxels about a point lie in one leaf of 8^3 voxels, or where the cell passes from one leaf to the next, in
+// as many as it touches: the tree is walked down once for each of those, and not for each voxel.
 float densityAtIndex(vec3 posI) {
   pnanovdb_buf_t words;
   words.unused = 0u;
@@ -34,10 +34,12 @@ float densityAtIndex(vec3 posI) {
     uint level;
     pnanovdb_address_t first =
         pnanovdb_root_get_value_address_and_level(PNANOVDB_GRID_TYPE_FLOAT, words, root, cell + next, level);
-    // Above a leaf one value stands for all. Along a crossed axis a leaf holds one voxel of the cell, which counts as both of two that have its weight together.
+    // Above a leaf one value stands for all. Along a crossed axis a leaf holds one voxel of the cell, which counts as
+    // both of two that have its weight together.
     uvec3 stride = uvec3(256u, 32u, 4u) * uvec3(ivec3(1) - crosses) * (level == 0u ? 1u : 0u);
     vec3 high = mix(upperWeight, vec3(0.0f), equal(crosses, ivec3(1)));
-    vec3 low = mix(vec3(1.0f) - upperWeight, mix(vec3(1.0f) - upperWeight, upperWeight, equal(next, ivec3(1))), equal(crosses, ivec3(1)));
+    vec3 low = mix(vec3(1.0f) - upperWeight, mix(vec3(1.0f) - upperWeight, upperWeight, equal(next, ivec3(1))),
+                   equal(crosses, ivec3(1)));
     for (int corner = 0; corner < 8; ++corner) {
       uvec3 at = uvec3(corner & 1, corner >> 1 & 1, corner >> 2);
       float weight = (at.x == 1u ? high.x : low.x) * (at.y == 1u ? high.y : low.y) * (at.z == 1u ? high.z : low.z);

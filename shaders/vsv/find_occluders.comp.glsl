@@ -1,4 +1,5 @@
-// The nearest occluder of each column of a shadow volume (shared/volume_source.glsl), from the columns' own map or from another one.
+// The nearest occluder of each column of a shadow volume (shared/volume_source.glsl), from the columns' own
+// map or from another one.
 #include "shared/shade.glsl"
 #include "shared/volume.glsl"
 #include "shared/volume_source.glsl"
@@ -31,6 +32,7 @@ void main() {
   ShadowMap map = shadowMap;
   map.kind = kMapEpipolar;
   if (column.x >= map.side || column.y >= map.rows) return;
-  float alpha = kSourceKind == kMapEpipolar ? drawn(column) : lookedUp(mapTexelRay(map, 0, mapTexelCenter(map, column)).dir);
+  float alpha = kSourceKind == kMapEpipolar ? drawn(column)
+                                            : lookedUp(mapTexelRay(map, 0, mapTexelCenter(map, column)).dir);
   occluders[column.y * map.side + column.x] = alpha;
 }

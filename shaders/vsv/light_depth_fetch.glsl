@@ -20,7 +20,8 @@ float depthFromLight(LightReach reach, vec3 fromLight) {
   for (int n = 0; n < 2; ++n) {
     uint first = lightDepthIndex(direction.layer, radius + n, texel.x, texel.y);
     uint second = lightDepthIndex(direction.layer, radius + n, texel.x, texel.y + 1);
-    depths[n] = mix(mix(lightDepth[first], lightDepth[first + 1u], blend.x), mix(lightDepth[second], lightDepth[second + 1u], blend.x), blend.y);
+    depths[n] = mix(mix(lightDepth[first], lightDepth[first + 1u], blend.x),
+                    mix(lightDepth[second], lightDepth[second + 1u], blend.x), blend.y);
   }
   return mix(depths[0], depths[1], radii - float(radius));
 }

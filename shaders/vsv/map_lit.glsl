@@ -1,4 +1,4 @@
-// Whether the light reaches a point in the open, by a shadow map. Without bias: there is no surface there to shadow itself.
+// Shadow-map lookup for a point in the medium. Without bias, because there is no surface that could shadow itself.
 #ifndef GNOMON_MAP_LIT_GLSL
 #define GNOMON_MAP_LIT_GLSL
 

@@ -1,6 +1,6 @@
-// Light scattered towards the eye by a medium of varying density: samples at equal distances along what of the view ray lies in the grid,
-// attenuated towards the eye by what was passed so far and towards the light by the table, with visibility from the bits of a shadow
-// volume or from a shadow map.
+// Light scattered towards the eye by a medium of varying density: samples at equal distances along what of the view ray
+// lies in the grid, attenuated towards the eye by what was passed so far and towards the light by the table, with
+// visibility from the bits of a shadow volume or from a shadow map.
 #include "shared/map.glsl"
 #include "shared/media_pass.glsl"
 #include "shared/shade.glsl"
@@ -32,7 +32,8 @@ BitRow bitRow(EpipolarGrid grid, vec3 dirL) {
   BitRow row;
   row.sinAlpha = sqrt(dirL.x * dirL.x + dirL.y * dirL.y);
   row.cosAlpha = -dirL.z;
-  int i = clamp(int(floor((atan2(row.sinAlpha, row.cosAlpha) - grid.alphaLower) / grid.alphaStep)), 0, grid.alphaCount - 1);
+  int i = clamp(int(floor((atan2(row.sinAlpha, row.cosAlpha) - grid.alphaLower) / grid.alphaStep)), 0,
+                grid.alphaCount - 1);
   int k = clamp(int(thetaSteps(grid, atan2(dirL.x, dirL.y))), 0, grid.thetaCount - 1);
   row.texel = epipolarTexelIndex(grid, i, k, 0);
   return row;
@@ -69,7 +70,9 @@ void main() {
     lit = lit && (push.coneCos <= -1.0f || dot(fromLight, push.coneAxisW) >= push.coneCos * length(fromLight));
     float along = here * stepLength;
     if (lit && here > 0.0f)
-      sum += scatteredPerMetre(media.medium, fromLight, ray.dirW, passed + 0.5f * along + depthFromLight(densityPush.reach, fromLight)) * along;
+      sum += scatteredPerMetre(media.medium, fromLight, ray.dirW,
+                               passed + 0.5f * along + depthFromLight(densityPush.reach, fromLight)) *
+             along;
     passed += along;
   }
   eyeDepth[pixel.y * media.camera.width + pixel.x] = passed;

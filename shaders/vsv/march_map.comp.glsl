@@ -1,5 +1,5 @@
-// Light scattered towards the eye by a homogeneous medium, sampled at equal distances along the view ray, each sample looked up in a shadow
-// map: what people have today, to compare with.
+// In-scattered light of a homogeneous medium by ray marching: samples at equal distances along the view ray, each
+// looked up in a shadow map. The baseline that most engines use today.
 #include "shared/map.glsl"
 #include "shared/media_pass.glsl"
 

@@ -1,4 +1,4 @@
-// Diffuse surfaces in a medium: the light's own radiance by way of the surface, attenuated from the light to it and from it to the eye.
+// Diffuse surfaces in a medium: the light is attenuated from the light to the surface, and from the surface to the eye.
 #include "shared/media_pass.glsl"
 #include "shared/shade.glsl"
 
@@ -30,7 +30,8 @@ void main() {
       toEye = eyeDepth[index];
       toLight = depthFromLight(push.reach, light.position - push.light.lightW);
     }
-    color = light.albedo * (light.direct * transmittance(media.medium, toLight + toEye) + light.ambient * transmittance(media.medium, toEye));
+    color = light.albedo * (light.direct * transmittance(media.medium, toLight + toEye) +
+                            light.ambient * transmittance(media.medium, toEye));
   }
   if (push.light.add == 1) color += surfaces[index];
   surfaces[index] = color;

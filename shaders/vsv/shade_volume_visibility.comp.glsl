@@ -1,5 +1,5 @@
-// Visibility by a shadow volume: G-buffer pixel -> receiver -> voxel -> its bit. Reads and writes what shadow/shade_visibility.comp.glsl
-// does; the texel of the diagnosis is the column.
+// Visibility by a shadow volume: G-buffer pixel -> receiver -> voxel -> its bit. Reads and writes what
+// shadow/shade_visibility.comp.glsl does; the texel of the diagnosis is the column.
 #define GNOMON_MAP_KIND kMapEpipolar
 
 #include "shared/shade.glsl"

@@ -1,4 +1,5 @@
-// How much density lies between the light and points about it: summed outwards along each direction, a value at each radius.
+// How much density lies between the light and points about it: summed outwards along each direction,
+// a value at each radius.
 #include "shared/density.glsl"
 #include "shared/media_pass.glsl"
 
@@ -23,7 +24,8 @@ void main() {
     lightDepth[lightDepthIndex(texel.z, radius, texel.x, texel.y)] = sum * stepLength;
     for (int n = 0; n < push.reach.substeps; ++n, ++stepped) {
       vec3 posI = origin + dir * (push.reach.near_ + (float(stepped) + 0.5f) * stepLength);
-      if (all(greaterThanEqual(posI, density.lowerI)) && all(lessThanEqual(posI, density.upperI))) sum += densityAtIndex(posI);
+      if (all(greaterThanEqual(posI, density.lowerI)) && all(lessThanEqual(posI, density.upperI)))
+        sum += densityAtIndex(posI);
     }
   }
 }

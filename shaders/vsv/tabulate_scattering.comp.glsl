@@ -1,5 +1,5 @@
-// The running integral of a homogeneous medium's scattering over phi (shared/medium.glsl), without what light and view ray give as factors.
-// One invocation a row: a sum in order, the same at every run.
+// The running integral of a homogeneous medium's scattering over phi (shared/medium.glsl), without what light and view
+// ray give as factors. One invocation a row: a sum in order, the same at every run.
 #include "shared/map.glsl"
 #include "shared/media_pass.glsl"
 

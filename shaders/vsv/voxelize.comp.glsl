@@ -1,5 +1,5 @@
-// Bits of a shadow volume of its columns' occluders: one invocation a column of texels, 128 columns of voxels, so that no two write
-// one texel and no atomics are needed.
+// Bits of a shadow volume of its columns' occluders: one invocation a column of texels, 128 columns of voxels, so that
+// no two write one texel and no atomics are needed.
 // kStep (kVoxelize*): seed and scan are passes of their own, or one.
 #include "shared/map.glsl"
 #include "shared/volume.glsl"

@@ -1,5 +1,5 @@
 #pragma once
-// Checks for a programmer's mistakes: on in every build, print both values, abort.
+// Checks for programming errors: enabled in every build; a failed one prints both values and aborts.
 //   GNOMON_CHECK(ptr != nullptr);
 //   GNOMON_CHECK_EQ(size, expectedSize);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The two kinds of error a person can mend. Both carry one line: the offending thing and the remedy.
-// They are caught in main only, printed as they are, and turned into the exit code.
+// The two kinds of error that a user can fix. Both carry one line, with what is wrong and how to fix it. Only main
+// catches them; it prints the line and returns the exit code.
 
 #include <stdexcept>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Files that appear under their final name only when they are whole: written aside, then renamed.
+// Atomic file writes: to a temporary file, which is then renamed, so that no half-written file has its final name.
 
 #include <filesystem>
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
-// Image files: EXR for data (32-bit float, linear), PNG for people (8-bit). All but writing PNG goes through OpenImageIO.
-// Rows run from the top down, channels are interleaved.
+// Image files: EXR for data (32-bit float, linear), PNG for viewing (8 bits). PNG is written by image_png.h, all else
+// goes through OpenImageIO. Rows run from top to bottom, channels are interleaved.
 
 #include <cstdint>
 #include <filesystem>
@@ -39,8 +39,7 @@ void writeExr(const std::filesystem::path& path, const ImageF& image, const std:
 // Any file OpenImageIO reads, as float (8-bit files give [0,1], not linearized). Throws WorldError.
 ImageF readImage(const std::filesystem::path& path);
 
-// Decodes an image held in memory (PNG, JPEG) to RGBA8; sRGB values stay sRGB. Throws WorldError that names
-// `what`.
+// Decodes an image held in memory (PNG, JPEG) to RGBA8; sRGB values stay sRGB. Throws WorldError that names `what`.
 Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what);
 
 // A JPEG file in memory, of 1 or 3 channels; `quality` 1..100. Throws WorldError.

@@ -1,7 +1,7 @@
 #pragma once
-// What image.h leaves to OpenImageIO, in a library of its own that is loaded when the first image is read or
-// written that is no PNG to be written (image_png.h): Debian's OpenImageIO brings 250 others with it, and loading them
-// takes as long as a small picture takes to render (0.2 s). For image.cpp only.
+// The part of image.h that calls OpenImageIO, in a separate library that is loaded when the first image is read, or
+// written as anything but PNG (image_png.h): Debian's OpenImageIO depends on 250 others, and loading them takes as long
+// as rendering a small picture (0.2 s). For image.cpp only.
 
 #include "base/image.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A line of progress on a terminal's stderr; silent in a pipe and with --quiet.
+// A progress line on stderr if that is a terminal; silent in a pipe and with --quiet.
 
 #include <string>
 

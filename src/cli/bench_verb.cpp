@@ -49,21 +49,22 @@ Run add(CLI::App* verb) {
   flags->map.mapTexels = 6291456;
   addSceneFlags(*verb, flags->scene);
   verb->get_option("SCENE")->required(false);
-  verb->add_option("--map-texels", flags->map.mapTexels, "texels of all layers of a map together")
+  verb->add_option("--map-texels", flags->map.mapTexels, "texels of each map, all its images together")
       ->check(CLI::Range(64L, 1L << 32))
       ->capture_default_str();
   addCullFlag(*verb, flags->map);
   addMapOptionFlags(*verb, flags->map, {&kVolumeSize, &kVolumeFit});
-  verb->add_option("--repeats", flags->repeats, "rounds; medians are told")
+  verb->add_option("--repeats", flags->repeats, "rounds; medians are reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  verb->add_flag("--no-growth", flags->noGrowth, "leave out how costs grow with triangles, map, picture and volume");
-  verb->add_flag("--no-start", flags->noStart, "leave out the time from typing gnomon render to the picture");
-  verb->add_option("--most-triangles", flags->mostTriangles, "where the growth with triangles ends")
+  verb->add_flag("--no-growth", flags->noGrowth, "skip the scaling measurements (triangles, map, picture, volume)");
+  verb->add_flag("--no-start", flags->noStart,
+                 "skip the start-up measurement (from typing gnomon render to the picture)");
+  verb->add_option("--most-triangles", flags->mostTriangles, "largest scene of the scaling measurement, triangles")
       ->check(CLI::Range(10'000L, 19'000'000L))
       ->capture_default_str();
-  verb->add_option("--json", flags->json, "write the numbers here");
-  verb->add_option("--svg", flags->svg, "write the curves of the growth here");
+  verb->add_option("--json", flags->json, "write the measurements to this JSON file");
+  verb->add_option("--svg", flags->svg, "write the scaling curves to this SVG file");
   return [flags] { return runBenchVerb(*flags); };
 }
 
@@ -71,7 +72,7 @@ Run add(CLI::App* verb) {
 
 Verb benchVerb() {
   return {.name = "bench",
-          .sentence = "what every stage costs, as ratios of one run, and how that grows; default scene: atrium",
+          .sentence = "times every stage, as ratios within one run, and how the times scale; default scene: atrium",
           .add = add};
 }
 

@@ -63,7 +63,7 @@ float parseKnobValue(const std::string& text, const std::string& number) {
     used = 0;
   }
   if (used == 0 || used != number.size())
-    throw UsageError(fmt::format("--bias-file-knob {}: '{}' is no number; write NAME=VALUE or VALUE", text, number));
+    throw UsageError(fmt::format("--bias-file-knob {}: '{}' is not a number; write NAME=VALUE or VALUE", text, number));
   return value;
 }
 
@@ -84,10 +84,12 @@ void setUserKnob(const std::string& text, CompareOptions& options) {
   for (const auto& user : options.userBiases) {
     const BiasMethod& method = user->method;
     if (method.knobs.empty() && (!named || options.userBiases.size() == 1))
-      throw UsageError(fmt::format("--bias-file-knob {}: {} has no knob; write //! knob: in it", text, user->path));
+      throw UsageError(
+          fmt::format("--bias-file-knob {}: {} has no parameter; declare one in it with //! knob:", text, user->path));
     if (!named && method.knobs.size() > 1)
-      throw UsageError(fmt::format("--bias-file-knob {}: {} has {} knobs; write NAME=VALUE, NAME one of {}", text,
-                                   user->path, method.knobs.size(), knobNames(method)));
+      throw UsageError(
+          fmt::format("--bias-file-knob {}: {} has {} parameters; write NAME=VALUE, where NAME is one of {}", text,
+                      user->path, method.knobs.size(), knobNames(method)));
     known += (known.empty() || method.knobs.empty() ? "" : ", ") + knobNames(method);
     for (const Knob& knob : method.knobs) {
       if (named && name != knob.name) continue;
@@ -95,7 +97,7 @@ void setUserKnob(const std::string& text, CompareOptions& options) {
       found = true;
     }
   }
-  if (!found) throw UsageError(fmt::format("--bias-file-knob {}: no such knob; choose from {}", text, known));
+  if (!found) throw UsageError(fmt::format("--bias-file-knob {}: no such parameter; choose from {}", text, known));
 }
 
 // Those of all --bias-file, after the others.
@@ -124,14 +126,16 @@ void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases) {
   verb.footer(sentences);
   verb.add_option("--biases", flags.biases, fmt::format("comma-separated, or all: {}", biases))->capture_default_str();
   verb.add_option("--bias-file", flags.biasFiles,
-                  "GLSL file with a bias of your own, scored as one more row (docs/add_a_bias.md); may be repeated");
+                  "GLSL file with your own bias, scored as one more row (docs/add_a_bias.md); may be repeated");
   verb.add_option(
           "--bias-file-knob", flags.biasFileKnobs,
-          "NAME=VALUE: a knob of your bias, in its unit (VALUE alone where it has one knob); default: as the file "
-          "says; may be repeated")
+          "NAME=VALUE: a parameter of your bias, in its unit (VALUE alone if it has only one); default: the file's; "
+          "may be repeated")
       ->allow_extra_args(false);
   verb.add_option("--filters", flags.filters, "comma-separated, or all: " + filterChoices())->capture_default_str();
-  verb.add_option("--epsilon-at", flags.epsilonAt, "where adaptive takes its epsilon: fragment, occluder or stored")
+  verb.add_option("--epsilon-at", flags.epsilonAt,
+                  "where adaptive evaluates its epsilon: fragment (the paper's text), occluder (its Algorithm 1) or "
+                  "stored (its listings)")
       ->capture_default_str();
   forEachKnob([&](const char* owner, const Knob& knob) {
     const std::string flag = knobFlag(owner, knob);

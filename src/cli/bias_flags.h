@@ -1,5 +1,6 @@
 #pragma once
-// Flags that choose biases, filters and their knobs, derived from their lists (shadow/bias.h, shadow/filter.h).
+// Flags that choose biases, filters and their parameters; they come from the lists in shadow/bias.h and
+// shadow/filter.h.
 
 #include "lab/compare/compare.h"
 

@@ -65,15 +65,16 @@ Run add(CLI::App* verb) {
   auto flags = std::make_shared<CompareFlags>();
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "all");
-  verb->add_option("-o,--out", flags->out, "folder for report.html, pictures and results.json; none: the table only");
+  verb->add_option("-o,--out", flags->out,
+                   "folder for report.html, pictures and results.json; default: only the table is printed");
   verb->add_option("--json", flags->json, "write results.json here");
   verb->add_option("--fail-if", flags->failIf,
-                   "exit with 3 when crossed: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; metrics are " +
+                   "exit with 3 if exceeded: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; metrics are " +
                        thresholdMetrics() + "; may be repeated");
   verb->add_flag("--tune", flags->tune,
-                 "each bias with a knob also at the value with the least acne + leak here, and how good that value is "
-                 "from another camera and on a map of half the size");
-  verb->add_option("--repeats", flags->repeats, "of every timed stage; medians are told")
+                 "also run each bias at the parameter values with the least acne + leak, and test those values from "
+                 "another camera and at half the map size");
+  verb->add_option("--repeats", flags->repeats, "repetitions of every timed stage; medians are reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   return [flags] { return runCompare(*flags); };
@@ -82,9 +83,10 @@ Run add(CLI::App* verb) {
 }  // namespace
 
 Verb compareVerb() {
-  return {.name = "compare",
-          .sentence = "every chosen map x bias against the exact shadow: table, pictures, results.json",
-          .add = add};
+  return {
+      .name = "compare",
+      .sentence = "compares every chosen map x bias with the exact shadow: table, pictures, results.json, report.html",
+      .add = add};
 }
 
 }  // namespace gnomon

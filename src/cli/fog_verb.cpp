@@ -88,14 +88,14 @@ auto parseList(const char* flag, const std::string& list, const Parse& parse) {
     const auto item = parse(word);
     if (std::ranges::find(items, item) == items.end()) items.push_back(item);
   }
-  if (items.empty()) throw UsageError(fmt::format("{}: name at least one", flag));
+  if (items.empty()) throw UsageError(fmt::format("{}: give at least one", flag));
   return items;
 }
 
 int parseSteps(const std::string& text) {
   const std::optional<double> value = numberOf(text);
   if (!value || *value < 1.0 || *value > kMostSteps || *value != std::floor(*value))
-    throw UsageError(fmt::format("--steps {}: whole numbers of 1..{}, as in 32,128,512", text, kMostSteps));
+    throw UsageError(fmt::format("--steps {}: give whole numbers of 1..{}, as in 32,128,512", text, kMostSteps));
   return static_cast<int>(*value);
 }
 
@@ -126,7 +126,7 @@ std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags) {
   }
   DensityPlacement placement{.scale = flags.densityScale.value_or(1.0)};
   if (!(placement.scale >= 1e-6 && placement.scale <= 1e6))
-    throw UsageError(fmt::format("--density-scale {}: a factor of size, 1e-6..1e6", placement.scale));
+    throw UsageError(fmt::format("--density-scale {}: give a scale factor, 1e-6..1e6", placement.scale));
   if (!flags.densityAt.empty()) placement.centerW = glm::dvec3(parseVec3("--density-at", flags.densityAt));
   return std::make_shared<const DensityGrid>(flags.density, placement);
 }
@@ -134,25 +134,38 @@ std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags) {
 FogMedium fogMedium(const FogFlags& flags) {
   FogMedium medium{.sigmaA = parseSpectrum("--sigma-a", flags.sigmaA), .reach = flags.reach};
   if (!flags.sigmaS.empty()) medium.sigmaS = parseSpectrum("--sigma-s", flags.sigmaS);
-  if (!(std::abs(flags.g) < 1.0)) throw UsageError(fmt::format("--g {}: a mean cosine lies between -1 and 1", flags.g));
+  if (!(std::abs(flags.g) < 1.0)) throw UsageError(fmt::format("--g {}: must be between -1 and 1", flags.g));
   medium.g = static_cast<float>(flags.g);
   if (flags.reach && !(*flags.reach > 0.0 && *flags.reach < 1e9))
-    throw UsageError(fmt::format("--reach {}: metres, more than 0 and less than 1e9", *flags.reach));
+    throw UsageError(fmt::format("--reach {}: give metres, more than 0 and less than 1e9", *flags.reach));
   if (!(flags.ambient >= 0.0 && flags.ambient < 1e9))
-    throw UsageError(fmt::format("--ambient {}: cd/m^2, 0 or more and less than 1e9", flags.ambient));
+    throw UsageError(fmt::format("--ambient {}: give cd/m^2, 0 or more and less than 1e9", flags.ambient));
   medium.ambient = static_cast<float>(flags.ambient);
   medium.density = densityOf(flags);
   return medium;
+}
+
+std::vector<const Integrator*> chosenIntegrators(const std::string& names, bool compares) {
+  if (!names.empty())
+    return parseList("--integrators", names, [](const std::string& name) { return &findIntegrator(name); });
+  std::vector<const Integrator*> all;
+  for (const Integrator& integrator : integrators()) all.push_back(&integrator);
+  if (!compares) all.resize(1);
+  return all;
+}
+
+std::string integratorsHelp() {
+  std::string help = "default: all, and the first alone where only a picture is asked for;";
+  for (const Integrator& integrator : integrators()) help += fmt::format(" {}: {};", integrator.name, integrator.says);
+  help.back() = '.';
+  return help;
 }
 
 FogOptions fogOptions(const FogFlags& flags) {
   const bool folder = !flags.out.empty() && !isPicture(flags.out);
   // A picture alone needs one way to integrate; whoever asks for numbers wants all.
   const bool compares = folder || flags.truth || !flags.json.empty() || flags.out.empty();
-  const std::string integrators = !flags.integrators.empty() ? flags.integrators
-                                  : compares                 ? "runs,bits,popcount,march"
-                                                             : "runs";
-  FogOptions options{.integrators = parseList("--integrators", integrators, parseIntegrator),
+  FogOptions options{.integrators = chosenIntegrators(flags.integrators, compares),
                      .steps = parseList("--steps", flags.steps, parseSteps),
                      .marchMap = parseMarchMap(flags.marchMap),
                      .map = flags.map.options,
@@ -164,8 +177,9 @@ FogOptions fogOptions(const FogFlags& flags) {
                      .repeats = flags.repeats};
   options.reference.bound = flags.bound.value_or(flags.density.empty() ? kBound : kDensityBound);
   if (!(options.reference.bound >= 1e-6 && options.reference.bound <= 1.0))
-    throw UsageError(fmt::format("--bound {}: a share of the picture's mean, 1e-6..1", options.reference.bound));
-  if (flags.move.empty() != (flags.frames == 0)) throw UsageError("--frames and --move need each other");
+    throw UsageError(
+        fmt::format("--bound {}: give a fraction of the picture's mean, 1e-6..1", options.reference.bound));
+  if (flags.move.empty() != (flags.frames == 0)) throw UsageError("--frames and --move: give both or neither");
   if (!flags.move.empty()) options.motion = parseMotion(flags.move, flags.frames);
   if (options.motion && !folder && !flags.truth)
     throw UsageError("--frames: give a folder with -o for the frames, or --truth to measure flicker");
@@ -208,21 +222,24 @@ int runFogVerb(const FogFlags& flags) {
 
 void addMediumFlags(CLI::App& verb, FogFlags& flags) {
   verb.add_option("--sigma-s", flags.sigmaS,
-                  "scattering per metre, one number or r,g,b; default: grey, so that the scene's diagonal is half an "
-                  "optical depth");
-  verb.add_option("--sigma-a", flags.sigmaA, "absorption per metre, one number or r,g,b")->capture_default_str();
-  verb.add_option("--g", flags.g, "mean cosine of the phase function (Henyey and Greenstein), between -1 and 1")
+                  "scattering coefficient, 1/m, one number or r,g,b; default: grey, an optical depth of one half "
+                  "across the scene's diagonal");
+  verb.add_option("--sigma-a", flags.sigmaA, "absorption coefficient, 1/m, one number or r,g,b")->capture_default_str();
+  verb.add_option("--g", flags.g,
+                  "asymmetry of the Henyey-Greenstein phase function (its mean cosine), between -1 and 1")
       ->capture_default_str();
   verb.add_option("--reach", flags.reach,
-                  "metres from the eye at which view rays end that meet no surface before; default: the farthest "
-                  "corner of the scene's bounds");
+                  "metres from the eye at which view rays end if they hit no surface; default: the farthest corner "
+                  "of the scene's bounds");
   verb.add_option("--density", flags.density,
-                  "FILE.vdb[:grid], a float grid: what sigma_s and sigma_a are multiplied by (`gnomon scene --density` "
-                  "makes some); default: none, a homogeneous medium");
+                  "FILE.vdb[:grid], a float grid that multiplies sigma_s and sigma_a (`gnomon scene --density` "
+                  "generates some); default: none, a homogeneous medium");
   verb.add_option("--density-at", flags.densityAt,
-                  "x,y,z: where the density's centre goes, metres; default: where the file has it");
-  verb.add_option("--density-scale", flags.densityScale, "factor of the density's size; default: 1");
-  verb.add_option("--ambient", flags.ambient, "cd/m^2 that a white surface shows without any light")
+                  "x,y,z: new centre of the density, metres; default: where the file places it");
+  verb.add_option("--density-scale", flags.densityScale,
+                  "scale scale scale scale factor of the density's size; default: 1");
+  verb.add_option("--ambient", flags.ambient,
+                  "ambient light: radiance of a white surface without any other light, cd/m^2")
       ->capture_default_str();
 }
 
@@ -230,33 +247,33 @@ Run add(CLI::App* verb) {
   auto flags = std::make_shared<FogFlags>();
   addSceneFlags(*verb, flags->scene);
   verb->add_option("-o,--out", flags->out,
-                   "a picture, .exr (cd/m^2) or .png (exposed), of the first of --integrators; or a folder for "
+                   "a picture by the first of --integrators, .exr (cd/m^2) or .png (exposed); or a folder for "
                    "report.html, results.json and all pictures");
   verb->add_option("--json", flags->json, "write results.json here");
-  verb->add_flag("--truth", flags->truth, "trace the reference, and score each way to integrate against it");
-  verb->add_option("--bound", flags->bound,
-                   fmt::format("what doubling a pixel's samples may still change the reference by, of the "
-                               "picture's mean; default: {:g}, in a density {:g}",
-                               kBound, kDensityBound));
-  verb->add_flag("--no-cache", flags->noCache, "neither read nor keep a reference of an earlier run");
-  verb->add_option("--integrators", flags->integrators,
-                   "of runs, bits, popcount (of a shadow volume) and march (through a map); default: all, and runs "
-                   "alone where only a picture is asked for");
-  verb->add_option("--steps", flags->steps, "samples a view ray of a march; in a density, of every way to integrate")
+  verb->add_flag("--truth", flags->truth, "ray-trace the reference, and score each integrator against it");
+  verb->add_option(
+      "--bound", flags->bound,
+      fmt::format("convergence tolerance of the reference: the most that doubling its samples may change a pixel, as "
+                  "a fraction of the picture's mean; default: {:g}, in a density {:g}",
+                  kBound, kDensityBound));
+  verb->add_flag("--no-cache", flags->noCache, "neither read nor write the cache of references");
+  verb->add_option("--integrators", flags->integrators, integratorsHelp());
+  verb->add_option("--steps", flags->steps, "samples along a view ray, for march; in a density, for every integrator")
       ->capture_default_str();
   verb->add_option("--march-map", flags->marchMap, "what a march looks shadows up in: " + marchMaps())
       ->capture_default_str();
+  verb->add_option("--march-map", flags->marchMap, "shadow map for march: " + marchMaps())->capture_default_str();
   addMediumFlags(*verb, *flags);
   addMapOptionFlags(*verb, flags->map, volumeParameterization().options());
   verb->add_option("--map-size", flags->map.mapSize,
-                   "side of a layer of the march's map, and of the cube map of --vsv-source resample; texels")
+                   "side of the images of --march-map, and of the cube map of --vsv-source resample; texels")
       ->check(CLI::Range(2, 16384))
       ->capture_default_str();
   addCullFlag(*verb, flags->map);
-  verb->add_option("--frames", flags->frames, "pictures along --move; with --truth also their flicker");
+  verb->add_option("--frames", flags->frames, "number of frames along --move; with --truth, flicker is measured too");
   verb->add_option("--move", flags->move,
-                   "light:x,y,z or camera:x,y,z: metres by which it moves from the first frame to the last");
-  verb->add_option("--repeats", flags->repeats, "of every timed stage; medians are told")
+                   "light:x,y,z or camera:x,y,z: offset from the first frame to the last, metres");
+  verb->add_option("--repeats", flags->repeats, "repetitions of every timed stage; medians are reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   return [flags] { return runFogVerb(*flags); };
@@ -266,7 +283,9 @@ Run add(CLI::App* verb) {
 
 Verb fogVerb() {
   return {.name = "fog",
-          .sentence = "light shafts in a medium: pictures, and each way to integrate them against a traced reference",
+          .sentence =
+              "renders light shafts in a medium; --truth scores each integrator against a ray-traced "
+              "reference",
           .add = add};
 }
 

@@ -84,9 +84,10 @@ Run add(CLI::App* verb) {
 }  // namespace
 
 Verb infoVerb() {
-  return {.name = "info",
-          .sentence = "devices, driver, versions, limits; of a scene: meshes, solids, sheets, lights, cameras",
-          .add = add};
+  return {
+      .name = "info",
+      .sentence = "shows devices, drivers, versions and limits; for a scene: meshes, solids, sheets, lights, cameras",
+      .add = add};
 }
 
 }  // namespace gnomon

@@ -1,5 +1,5 @@
-// gnomon: exit code 0 done, 1 the world failed, 2 wrong usage, 3 a --fail-if was crossed, or vsv --validate
-// found a volume that its source does not imply.
+// The gnomon program. Exit codes: 0 success, 1 runtime error, 2 usage error, 3 a --fail-if threshold was exceeded, or
+// vsv --validate found a wrong voxel.
 
 #include "base/check.h"
 #include "base/error.h"
@@ -21,15 +21,14 @@ namespace {
 using namespace gnomon;
 
 int parseAndRun(int argc, char** argv) {
-  CLI::App app("Gnomon, a shadow laboratory for point lights", "gnomon");
+  CLI::App app("Gnomon measures shadow-map bias for point, spot and directional lights", "gnomon");
   app.set_version_flag("--version", gnomonVersion());
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done; 1 the world failed (file, device, memory); 2 wrong usage; 3 a --fail-if was "
-      "crossed, or vsv --validate found a wrong voxel.\n"
-      "Environment: GNOMON_DEVICE as --device, GNOMON_VALIDATION=1 turns the validation layers on, "
-      "GNOMON_CACHE_DIR holds "
-      "compiled shaders (empty: no cache).");
+      "Exit codes: 0 success; 1 runtime error (file, device, memory); 2 usage error; 3 a --fail-if threshold was "
+      "exceeded, or vsv --validate found a wrong voxel.\n"
+      "Environment: GNOMON_DEVICE is the same as --device; GNOMON_VALIDATION=1 enables the validation layers; "
+      "GNOMON_CACHE_DIR is the folder of the shader cache (empty: no cache).");
   app.option_defaults()->always_capture_default(false);
   std::vector<std::pair<const CLI::App*, Run>> runs;
   for (const Verb& verb : verbs()) {

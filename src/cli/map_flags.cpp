@@ -10,7 +10,8 @@ namespace gnomon {
 
 void addCullFlag(CLI::App& verb, MapFlags& flags) {
   verb.add_option("--cull", flags.cull,
-                  "solids: closed one-sided meshes cast by their lit faces only; none: everything casts")
+                  "solids: back faces of closed one-sided meshes, as seen from the light, are left out of the map; "
+                  "none: nothing is left out")
       ->capture_default_str();
 }
 
@@ -31,11 +32,11 @@ void addMapFlags(CLI::App& verb, MapFlags& flags, const char* defaultMaps) {
   for (const Parameterization* map : parameterizations())
     maps += fmt::format("{}{} ({})", maps.empty() ? "" : ", ", map->name(), map->sentence());
   verb.add_option("--maps", flags.maps, "comma-separated: " + maps)->capture_default_str();
-  CLI::Option* side =
-      verb.add_option("--map-size", flags.mapSize, "side of a map's layer, texels")->capture_default_str();
+  CLI::Option* side = verb.add_option("--map-size", flags.mapSize, "side of each of the map's square images, texels")
+                          ->capture_default_str();
   verb.add_option("--map-texels", flags.mapTexels,
-                  "texels of all layers together; picks the side, so that maps of different layer counts "
-                  "compare fairly")
+                  "texels of the whole map, all its images together; sets the side of each, so that a cube and a "
+                  "paraboloid are compared at equal memory")
       ->excludes(side);
   addCullFlag(verb, flags);
   addMapOptionFlags(verb, flags, allMapOptions());

@@ -1,5 +1,5 @@
 #pragma once
-// Flags that choose maps and how they are drawn. Those of one kind of map derive from what it declares
+// Flags that choose maps and how they are drawn. Those of one kind of map come from its own list of options
 // (Parameterization::options).
 
 #include "lab/core/method.h"

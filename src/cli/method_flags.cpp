@@ -19,15 +19,16 @@ void checkMeaning(const CompareOptions& options, const Parameterization& map) {
   for (const BiasMethod& method : biasMethods())
     if (map.supportsBias(method)) biases += (biases.empty() ? "" : ", ") + std::string(method.name);
   if (own.biases.empty())
-    throw UsageError(fmt::format("--maps {} takes none of these --biases; choose from {}", map.name(), biases));
-  if (own.filters.empty()) throw UsageError(fmt::format("--maps {} takes no filter; add --filters none", map.name()));
+    throw UsageError(fmt::format("--maps {} supports none of these --biases; choose from {}", map.name(), biases));
+  if (own.filters.empty())
+    throw UsageError(fmt::format("--maps {} supports no filter; add --filters none", map.name()));
   for (const BiasMethod* bias : options.biases)
     if (std::ranges::find(own.biases, bias) == own.biases.end())
       left += (left.empty() ? "" : ", ") + std::string(bias->name);
   for (const Filter* filter : options.filters)
     if (std::ranges::find(own.filters, filter) == own.filters.end())
       left += (left.empty() ? "" : ", ") + std::string(filter->name);
-  if (!left.empty()) fmt::print(stderr, "gnomon: {} has no depths to compare, so it leaves out {}\n", map.name(), left);
+  if (!left.empty()) fmt::print(stderr, "gnomon: {} stores no depths, so it skips {}\n", map.name(), left);
 }
 
 }  // namespace

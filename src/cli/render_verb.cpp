@@ -25,7 +25,7 @@ struct RenderFlags {
 int runRender(const RenderFlags& flags) {
   const std::string extension = std::filesystem::path(flags.out).extension().string();
   if (extension != ".png" && extension != ".exr")
-    throw UsageError(fmt::format("-o {}: write a .png or an .exr", flags.out));
+    throw UsageError(fmt::format("-o {}: the name must end in .png or .exr", flags.out));
   CompareOptions options = compareOptions(flags.method);
   if (options.biases.size() > 1 && !options.userBiases.empty())
     options.biases.erase(options.biases.begin(), options.biases.end() - 1);  // a file given is the bias meant
@@ -47,10 +47,10 @@ Run add(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "adaptive");
-  verb->add_option("-o,--out", flags->out, "the picture: .png (for people) or .exr (linear data)")->required();
+  verb->add_option("-o,--out", flags->out, "the picture: .png (8 bits, for viewing) or .exr (linear data)")->required();
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
-                   "layer-gap or texel-density (texels per square metre)")
+                   "layer-gap (second depth - first) or texel-density (texels per square metre)")
       ->check(CLI::IsMember(picturesToShow()))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };
@@ -59,7 +59,7 @@ Run add(CLI::App* verb) {
 }  // namespace
 
 Verb renderVerb() {
-  return {.name = "render", .sentence = "one picture of one configuration, PNG or EXR", .add = add};
+  return {.name = "render", .sentence = "renders renders one picture of one configuration, PNG or EXR", .add = add};
 }
 
 }  // namespace gnomon

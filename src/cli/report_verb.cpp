@@ -25,7 +25,7 @@ int runReport(const ReportFlags& flags) {
 
 Run add(CLI::App* verb) {
   auto flags = std::make_shared<ReportFlags>();
-  verb->add_option("DIR", flags->folder, "a folder that gnomon compare -o wrote")->required();
+  verb->add_option("DIR", flags->folder, "a folder written by gnomon compare -o or gnomon fog -o")->required();
   verb->add_option("-o,--out", flags->out, "the page: FILE.html")->required();
   return [flags] { return runReport(*flags); };
 }
@@ -33,7 +33,7 @@ Run add(CLI::App* verb) {
 }  // namespace
 
 Verb reportVerb() {
-  return {.name = "report", .sentence = "one self-contained HTML page of what compare wrote into a folder", .add = add};
+  return {.name = "report", .sentence = "rebuilds the HTML report of a folder that compare or fog wrote", .add = add};
 }
 
 }  // namespace gnomon

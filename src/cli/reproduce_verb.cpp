@@ -40,20 +40,20 @@ Run add(CLI::App* verb) {
   for (const std::string& paper : reproduciblePapers()) papers += (papers.empty() ? "" : " or ") + paper;
   verb->add_option("PAPER", flags->options.paper, papers)->required();
   verb->add_option("-o,--out", flags->out,
-                   "folder for report.html, pictures and results.json; none: a line a claim only");
+                   "folder for report.html, pictures and results.json; default: only the verdicts are printed");
   verb->add_option("--scene", flags->options.scene,
-                   "run the same on this glTF file or generated scene, with its first camera and its first "
-                   "light that each map can take; default: the scene that each figure calls for");
+                   "use this glTF file or generated scene, with its first camera and the first light that each map "
+                   "supports; default: a scene for each figure");
   verb->add_option("--scale", flags->options.scale,
-                   "of the sides of pictures, maps and volumes, for a quick look: 0.05..1")
+                   "scale factor for the sides of pictures, maps and volumes, for a quick look: 0.05..1")
       ->capture_default_str();
-  verb->add_option("--repeats", flags->options.repeats, "of every timed frame; medians are told")
+  verb->add_option("--repeats", flags->options.repeats, "repetitions of every timed frame; medians are reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   verb->add_option("--device", flags->device,
-                   "part of a Vulkan device's name; default: a GPU where there is one, else the CPU device");
+                   "part of a Vulkan device's name; default: a GPU if there is one, else the CPU device (lavapipe)");
   verb->add_flag_callback(
-      "--quiet", [] { Progress::setQuiet(true); }, "no progress on the terminal");
+      "--quiet", [] { Progress::setQuiet(true); }, "no progress display");
   return [flags] { return runReproduce(*flags); };
 }
 
@@ -61,7 +61,7 @@ Run add(CLI::App* verb) {
 
 Verb reproduceVerb() {
   return {.name = "reproduce",
-          .sentence = "a paper's figures and tables made again, and whether its claims hold here",
+          .sentence = "reproduces a paper's figures and tables, and tests whether its claims hold here",
           .add = add};
 }
 

@@ -32,9 +32,9 @@ int listScenes() {
 
 // Where to write, which must end in `extension`.
 std::filesystem::path outputOf(const SceneVerbFlags& flags, const char* what, const char* extension) {
-  if (flags.out.empty()) throw UsageError(fmt::format("{}: say where to write it, with -o FILE{}", what, extension));
+  if (flags.out.empty()) throw UsageError(fmt::format("{}: give the output file, -o FILE{}", what, extension));
   if (std::filesystem::path(flags.out).extension() != extension)
-    throw UsageError(fmt::format("-o {}: write a {}", flags.out, extension));
+    throw UsageError(fmt::format("-o {}: the name must end in {}", flags.out, extension));
   return flags.out;
 }
 
@@ -49,7 +49,7 @@ int writeScene(const SceneVerbFlags& flags) {
 int writeDensity(const SceneVerbFlags& flags) {
   if (!flags.name.empty())
     throw UsageError(
-        fmt::format("--density {}: name the scene that it is for with --for {}", flags.density, flags.name));
+        fmt::format("--density {}: give the scene that it fills with --for {}", flags.density, flags.name));
   const std::filesystem::path out = outputOf(flags, fmt::format("--density {}", flags.density).c_str(), ".vdb");
   const Bounds boundsW = computeBounds(openScene(flags.densityFor));
   const DensitySummary summary = writeGeneratedDensity(flags.density, boundsW, flags.seed, out);
@@ -66,12 +66,14 @@ int runScene(const SceneVerbFlags& flags) {
 Run add(CLI::App* verb) {
   auto flags = std::make_shared<SceneVerbFlags>();
   verb->add_option("NAME", flags->name, "a generated scene, `crowd:N` for about N triangles");
-  verb->add_option("-o,--out", flags->out, "FILE.glb, or FILE.vdb of a density");
+  verb->add_option("-o,--out", flags->out, "FILE.glb, or FILE.vdb for a density");
   CLI::Option* density = verb->add_option("--density", flags->density, "a generated density instead of a scene");
-  verb->add_option("--for", flags->densityFor, "scene whose bounds the density fills: a name or a glTF file")
+  verb->add_option("--for", flags->densityFor,
+                   "scene whose bounds the density fills: a generated scene or a glTF "
+                   "file")
       ->capture_default_str()
       ->needs(density);
-  verb->add_option("--seed", flags->seed, "of noise")->capture_default_str()->needs(density);
+  verb->add_option("--seed", flags->seed, "seed of the noise")->capture_default_str()->needs(density);
   return [flags] { return runScene(*flags); };
 }
 
@@ -79,7 +81,7 @@ Run add(CLI::App* verb) {
 
 Verb sceneVerb() {
   return {.name = "scene",
-          .sentence = "write a generated scene as glTF, or a density as OpenVDB; without a name, list them",
+          .sentence = "writes a generated scene as glTF, or a density as OpenVDB; without a name, lists them",
           .add = add};
 }
 

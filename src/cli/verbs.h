@@ -1,6 +1,5 @@
 #pragma once
-// The verbs of the program. Each declares itself in a file of its own; verbs.cpp has the list. WorldError and UsageError
-// are caught in main.
+// The subcommands of the program, each in its own file; verbs.cpp has the list. main catches WorldError and UsageError.
 
 #include <functional>
 #include <vector>

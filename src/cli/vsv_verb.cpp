@@ -37,11 +37,11 @@ VolumeOptions volumeOptions(const VsvFlags& flags) {
                         .vdb = flags.vdb,
                         .command = commandLine()};
   if (!flags.vdb.empty() && options.vdb.extension() != ".vdb")
-    throw UsageError(fmt::format("--vdb {}: write a .vdb", flags.vdb));
+    throw UsageError(fmt::format("--vdb {}: the name must end in .vdb", flags.vdb));
   if (flags.vdbVoxel) {
     if (flags.vdb.empty()) throw UsageError("--vdb-voxel needs a --vdb");
     if (!(*flags.vdbVoxel > 0.0 && *flags.vdbVoxel < 1e6))
-      throw UsageError(fmt::format("--vdb-voxel {}: metres, more than 0 and less than 1e6", *flags.vdbVoxel));
+      throw UsageError(fmt::format("--vdb-voxel {}: give metres, more than 0 and less than 1e6", *flags.vdbVoxel));
     options.vdbVoxel = *flags.vdbVoxel;
   }
   return options;
@@ -59,7 +59,8 @@ int runVsv(const VsvFlags& flags) {
   if (!flags.out.empty())
     std::printf("wrote %s/volume.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
   if (result.sound()) return 0;
-  std::fprintf(stderr, "gnomon: the volume is not the one that its source implies: see 'same map' above\n");
+  std::fprintf(stderr,
+               "gnomon: the volume differs from the CPU's rebuild from the same depth map: see 'same map' above\n");
   return 3;
 }
 
@@ -67,20 +68,19 @@ Run add(CLI::App* verb) {
   auto flags = std::make_shared<VsvFlags>();
   addSceneFlags(*verb, flags->scene);
   addMapOptionFlags(*verb, flags->map, volumeParameterization().options());
-  verb->add_option("--map-size", flags->map.mapSize,
-                   "side of the cube map that --vsv-source resample looks columns up in, texels")
+  verb->add_option("--map-size", flags->map.mapSize, "side of the cube map's faces for --vsv-source resample, texels")
       ->check(CLI::Range(2, 16384))
       ->capture_default_str();
   addCullFlag(*verb, flags->map);
   verb->add_flag("--validate", flags->validate,
-                 "check every voxel against what the same map implies (exit code 3 where one differs beyond "
-                 "rounding) and every column against a traced ray");
-  verb->add_option("-o,--out", flags->out, "folder for slices, the coordinates' picture and volume.json");
+                 "compare every voxel with a CPU rebuild from the same depth map (exit code 3 if one differs beyond "
+                 "rounding), and every column with a traced ray");
+  verb->add_option("-o,--out", flags->out, "folder for pictures (slices, coordinates) and volume.json");
   verb->add_option("--json", flags->json, "write volume.json here");
   verb->add_option("--vdb", flags->vdb,
-                   "write an OpenVDB file: the voxels as a mask, and a density in the world, 1 in shadow");
+                   "write an OpenVDB file: the voxels as a mask, and a world-space density, 1 in shadow");
   verb->add_option("--vdb-voxel", flags->vdbVoxel,
-                   "edge of the density's voxels, metres; default: of the volume's mean voxel");
+                   "voxel size of the density, metres; default: the volume's mean voxel size");
   return [flags] { return runVsv(*flags); };
 }
 
@@ -88,7 +88,7 @@ Run add(CLI::App* verb) {
 
 Verb vsvVerb() {
   return {.name = "vsv",
-          .sentence = "a voxelized shadow volume: build it, check it on the CPU, write it as .vdb",
+          .sentence = "builds a voxelized shadow volume, checks it on the CPU, exports it as .vdb",
           .add = add};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// One command buffer, recorded, submitted and waited for. A pass is one call that names its program and
-// everything it binds; between two passes stands one barrier that says who wrote and who reads.
+// One command buffer, recorded, submitted and waited for. A pass is one call with its program and everything that is
+// bound; between two passes there is one barrier, with a text that says who wrote and who reads.
 
 #include "gpu/program.h"
 
@@ -13,8 +13,7 @@
 
 namespace gnomon::gpu {
 
-// A resource for one binding of a program: a storage buffer, a storage image, or a sampled image
-// (texelFetch).
+// A resource for one binding of a program: a storage buffer, a storage image, or a sampled image (texelFetch).
 struct Binding {
   uint32_t index;
   const Buffer* buffer = nullptr;
@@ -60,8 +59,7 @@ class Commands {
   void beginStage(const char* name);
   void endStage();
 
-  // Everything before is visible to everything after. `words`: "shadow map writes depth -> visibility fetches
-  // it".
+  // Everything before is visible to everything after. `words`: "shadow map writes depth -> visibility fetches it".
   void barrier(const char* words);
 
   // Checks that `push` has the size the program declares and that exactly its bindings are given.

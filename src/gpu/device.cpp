@@ -147,7 +147,7 @@ Candidate chooseDevice(VkInstance instance, const std::string& name) {
       return lowerCase(describe(device).name).find(lowerCase(name)) == std::string::npos;
     });
   if (devices.empty())
-    throw WorldError(fmt::format("no Vulkan device is named '{}'; there is {}", name, fmt::join(names, ", ")));
+    throw WorldError(fmt::format("no Vulkan device is named '{}'; available: {}", name, fmt::join(names, ", ")));
   if (name.empty())
     std::stable_sort(devices.begin(), devices.end(),
                      [](VkPhysicalDevice a, VkPhysicalDevice b) { return rank(a) < rank(b); });
@@ -166,8 +166,7 @@ Candidate chooseDevice(VkInstance instance, const std::string& name) {
   throw WorldError(refusal);
 }
 
-// A family that draws and computes. Drawing families must compute by the specification, in some family at
-// least.
+// A family that draws and computes. Drawing families must compute by the specification, in some family at least.
 uint32_t chooseQueueFamily(VkPhysicalDevice device, uint32_t& timestampValidBits) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
@@ -179,7 +178,7 @@ uint32_t chooseQueueFamily(VkPhysicalDevice device, uint32_t& timestampValidBits
     timestampValidBits = families[i].timestampValidBits;
     return i;
   }
-  throw WorldError(fmt::format("device '{}' has no queue that draws and computes; choose another with --device",
+  throw WorldError(fmt::format("device '{}' has no queue for both graphics and compute; choose another with --device",
                                describe(device).name));
 }
 

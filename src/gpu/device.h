@@ -1,9 +1,8 @@
 #pragma once
-// The Vulkan 1.3 device: one instance, one queue, the features Gnomon needs, the messages validation gave.
+// The Vulkan 1.3 device: one instance, one queue, the features Gnomon needs, and the messages of the validation layers.
 //
-// Choice: --device NAME takes the first device whose name contains NAME (case ignored); without it the first
-// discrete GPU, then integrated, then a CPU device (lavapipe). GNOMON_DEVICE in the environment acts as
-// --device.
+// Choice: --device NAME takes the first device whose name contains NAME (case ignored); without it the first discrete
+// GPU, then integrated, then a CPU device (lavapipe). GNOMON_DEVICE in the environment acts as --device.
 
 #include "gpu/vulkan.h"
 
@@ -18,8 +17,7 @@ struct DeviceOptions {
   bool validation = false;  // also synchronization validation; or GNOMON_VALIDATION=1 in the environment
   // Also receives every message, those about objects that outlive the device too; must outlive the device.
   std::vector<std::string>* messageSink = nullptr;
-  // Hides from the CPU what a discrete GPU would hide, so that lavapipe takes the staging path too: for
-  // tests.
+  // Hides from the CPU what a discrete GPU would hide, so that lavapipe takes the staging path too: for tests.
   bool hideDeviceMemory = false;
 };
 
@@ -51,8 +49,7 @@ struct DeviceFunctions {
 // Submissions are not synchronized: one thread at a time.
 class Device {
  public:
-  // Throws WorldError: no device, none of that name (lists them), or a required feature is missing (names
-  // it).
+  // Throws WorldError: no device, none of that name (lists them), or a required feature is missing (names it).
   static std::unique_ptr<Device> create(const DeviceOptions& options);
   ~Device();
   Device(const Device&) = delete;

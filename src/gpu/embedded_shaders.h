@@ -1,5 +1,5 @@
 #pragma once
-// The shaders folder as a table, made by cmake/embed_shaders.cmake.
+// The shaders folder, embedded as a table of sources by cmake/embed_shaders.cmake.
 
 #include <cstddef>
 

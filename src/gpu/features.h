@@ -1,5 +1,5 @@
 #pragma once
-// What Gnomon asks of a device: one list of features and one of extensions, each refused by its name.
+// What Gnomon requires of a device: one list of features and one of extensions. Error messages name what is missing.
 
 #include "gpu/vulkan.h"
 

@@ -28,10 +28,9 @@ void merge(ProgramInterface& into, const ProgramInterface& stage, const std::str
       continue;
     }
     if (same->type != binding.type)
-      throw WorldError(
-          fmt::format("{}: binding {} is '{}' and also '{}', which is of another kind; give one of them "
-                      "another number",
-                      name, binding.index, same->name, binding.name));
+      throw WorldError(fmt::format(
+          "{}: binding {} is both '{}' and '{}', which have different types; give one of them another number", name,
+          binding.index, same->name, binding.name));
     same->stages |= binding.stages;
   }
   std::sort(into.bindings.begin(), into.bindings.end(), [](const auto& a, const auto& b) { return a.index < b.index; });

@@ -1,6 +1,6 @@
 #pragma once
-// Programs: shaders plus what their SPIR-V says of them (bindings, push constants), so that a pass that binds
-// the wrong thing is refused at the call and not by a black picture.
+// Programs: shaders and the interface reflected from their SPIR-V (bindings, push constants), so that wrong bindings
+// fail a check at the call instead of giving a black picture.
 //
 // All bindings are in set 0 and are pushed (VK_KHR_push_descriptor). Every binding the SPIR-V declares must
 // be given at each call: lavapipe 22.3 crashes on descriptors that were never written.

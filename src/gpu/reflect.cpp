@@ -94,7 +94,7 @@ ProgramInterface reflect(const std::vector<uint32_t>& spirv, VkShaderStageFlagBi
   for (const spvc_resource_type type : kRefused) {
     const ResourceList found = list(context, resources, type);
     if (found.count > 0)
-      throw WorldError(fmt::format("'{}' is of a kind that Gnomon does not bind; use buffers, images and textures",
+      throw WorldError(fmt::format("'{}' has a type that Gnomon cannot bind; use buffers, images and textures",
                                    found.items[0].name));
   }
   const ResourceList push = list(context, resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT);

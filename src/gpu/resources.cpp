@@ -135,7 +135,7 @@ void checkLimits(const Device& device, const ImageDesc& desc) {
                     "smaller size",
                     desc.name, desc.width, desc.height, limits.maxImageDimension2D, limits.maxImageDimension2D));
   if (desc.layerCount > limits.maxImageLayers)
-    throw WorldError(fmt::format("'{}' has {} layers, and the device's most is {}; choose fewer", desc.name,
+    throw WorldError(fmt::format("'{}' has {} array layers, and the device's maximum is {}; choose fewer", desc.name,
                                  desc.layerCount, limits.maxImageLayers));
   const VkImageCreateInfo info = imageInfo(desc);
   VkImageFormatProperties properties{};

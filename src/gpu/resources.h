@@ -1,5 +1,5 @@
 #pragma once
-// Buffers and images that own their memory. Every image lives in VK_IMAGE_LAYOUT_GENERAL.
+// Buffers and images that own their memory. All images stay in VK_IMAGE_LAYOUT_GENERAL.
 
 #include "gpu/device.h"
 

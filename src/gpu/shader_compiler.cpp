@@ -65,7 +65,7 @@ const Stage kStages[] = {
 EShLanguage stageOf(const std::string& path) {
   for (const Stage& stage : kStages)
     if (path.ends_with(stage.suffix)) return stage.language;
-  throw fileError(path, "its name does not tell a shader stage",
+  throw fileError(path, "its name does not say which shader stage it is",
                   "end it in .vert.glsl, .frag.glsl, .comp.glsl, .tesc.glsl, .tese.glsl or .geom.glsl");
 }
 
@@ -82,8 +82,7 @@ std::optional<std::string> findSource(const ShaderSource& source, const std::str
   return std::nullopt;
 }
 
-// The file that a line includes in quotes; empty for other lines. <...> is C++'s, and left to the
-// preprocessor to skip.
+// The file that a line includes in quotes; empty for other lines. <...> is C++'s, and left to the preprocessor to skip.
 std::string_view includedFile(std::string_view line) {
   const auto skipSpace = [&] { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); };
   skipSpace();
@@ -193,7 +192,8 @@ std::vector<uint32_t> compileWithGlslang(const std::string& path, EShLanguage st
 void setShaderDirectory(const fs::path& folder) {
   std::error_code failure;
   if (!fs::is_directory(folder, failure))
-    throw fileError(folder.string(), "is no folder of shaders", "give the path of a copy of Gnomon's shaders folder");
+    throw fileError(folder.string(), "is not a folder of shaders",
+                    "give the path of a copy of Gnomon's shaders folder");
   std::lock_guard lock(shaderDirectoryMutex);
   shaderDirectory = folder;
 }

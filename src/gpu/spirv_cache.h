@@ -10,9 +10,8 @@
 
 namespace gnomon::gpu {
 
-// FNV-1a, 128 bits, as two words, the high one first (Fowler, Noll, Vo, Eastlake: "The FNV Non-Cryptographic
-// Hash Algorithm", section 5). It tells sources apart; it does not keep out somebody who can write to the
-// cache.
+// FNV-1a, 128 bits, as two words, the high one first (Fowler, Noll, Vo, Eastlake: "The FNV Non-Cryptographic Hash
+// Algorithm", section 5). It tells sources apart; it does not keep out somebody who can write to the cache.
 using Hash128 = std::array<uint64_t, 2>;
 Hash128 hashText(std::string_view text);
 

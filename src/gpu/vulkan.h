@@ -1,6 +1,5 @@
 #pragma once
-// Vulkan with owners: a handle that destroys itself, and a check that throws with the call and the result's
-// name.
+// RAII handles for Vulkan objects, and a check that throws with the call and the name of its result.
 
 #include <vulkan/vulkan.h>
 

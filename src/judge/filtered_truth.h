@@ -1,11 +1,12 @@
 #pragma once
-// The exact shadow through a filter's kernel: what a filtered map would show at infinite resolution.
+// Filtered ground truth: the exact shadow, filtered with the same kernel as the map. A filtered map would show this at
+// infinite resolution.
 //
-// Sample i of a pixel's kernel is a light ray through the map, kernelOffset texels from the receiver's. Where
-// it meets the receiver's plane it is traced as the truth is. Blocked, it still counts as lit where the
-// receiver is lit and the surface is continuous, seen from the light, from the receiver to the blocker
-// (truth/labels.h): at a crease the plane runs on behind the wall, and nothing there casts a shadow. A ray that
-// does not meet the plane between the map's near and far ends says what the receiver's own said.
+// Sample i of a pixel's kernel is a light ray through the map, kernelOffset texels from the receiver's. Where it meets
+// the receiver's plane it is traced as the truth is. Blocked, it still counts as lit where the receiver is lit and the
+// surface is continuous, seen from the light, from the receiver to the blocker (truth/labels.h): at a crease the plane
+// runs on behind the wall, and nothing there casts a shadow. A ray that does not meet the plane between the map's near
+// and far ends counts as the receiver's own ray does.
 
 #include "shadow/filter.h"
 #include "shadow/parameterization.h"

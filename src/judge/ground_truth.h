@@ -1,5 +1,5 @@
 #pragma once
-// What rays say of one light in one picture: what the camera sees of it, and what of that is lit.
+// Ray-traced ground truth for one light in one picture: the pixels to score, and which of them are lit.
 
 #include "judge/scene_view.h"
 #include "shadow/parameterization.h"

@@ -1,12 +1,12 @@
 #pragma once
-// One light as one parameterization takes it, in one picture: its ground truth, the fit, the map or volume drawn of it,
-// what any bias says of each pixel, and why that is wrong where it is.
+// One light as one parameterization models it, in one picture: its ground truth, the fit, the rendered map or volume,
+// each pixel's visibility by any bias, and why it is wrong where it is.
 //
 //   ShadowPasses passes(view);
 //   LightOnMap lit(view, passes, cubeParameterization(), {.side = 512});
 //   const LabelledResult result = lit.judge(atDefaults(findBias("adaptive"), view));
 //
-// Each of these is made when it is first asked for, and kept.
+// Each is computed when it is first needed, and cached.
 
 #include "judge/ground_truth.h"
 #include "judge/shadow_passes.h"

@@ -1,5 +1,5 @@
 #pragma once
-// A scene on a device, as a camera sees it: what is rendered, traced and labelled for one picture starts here.
+// A scene on a device, seen by a camera: where rendering, ray tracing and labelling of one picture start.
 
 #include "scene/gbuffer.h"
 #include "truth/tracer.h"

@@ -1,6 +1,6 @@
 #pragma once
-// What draws occluders and lights pictures of one size: shared, one after another, by all lights, maps and cameras of a
-// device.
+// The passes that render occluders and light pictures of one size. All lights, maps and cameras of a device share them,
+// one after another.
 
 #include "base/image.h"
 #include "judge/scene_view.h"

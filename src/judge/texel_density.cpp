@@ -9,8 +9,7 @@ namespace gnomon {
 
 namespace {
 
-// Where the ray through uv meets the receiver's plane, which lies before the light only if the distance is
-// positive.
+// Where the ray through uv meets the receiver's plane, which lies before the light only if the distance is positive.
 std::optional<glm::dvec3> meetPlane(const FittedMap& fitted, int layer, const glm::dvec2& uv,
                                     const glm::dvec3& positionL, const glm::dvec3& normalL) {
   const glsl::Ray ray = glsl::mapTexelRay(fitted.map, layer, glm::vec2(uv));

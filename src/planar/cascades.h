@@ -1,5 +1,5 @@
 #pragma once
-// Where a view is split into cascades.
+// The distances at which a view is split into cascades.
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-// A convex polyhedron, cut by planes: what a camera or a cone sees of the scene's bounds.
+// A convex polyhedron, clipped by planes: the part of the scene's bounds in a camera's frustum or a spot's cone.
 
 #include "scene/scene.h"
 

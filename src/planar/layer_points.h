@@ -1,5 +1,5 @@
 #pragma once
-// What each layer of a planar map must cover, by the choice of fit and the split into cascades.
+// The points that each cascade of a planar map must cover, for the chosen fit.
 
 #include "planar/window.h"
 #include "shadow/parameterization.h"

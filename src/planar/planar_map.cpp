@@ -14,24 +14,25 @@
 namespace gnomon {
 
 constinit const ChoiceOption<WindowFit> kWindowFit(
-    {.name = "fit", .sentence = "what spot and directional maps enclose", .results = InResults::EveryRow},
+    {.name = "fit", .sentence = "what spot and directional maps cover", .results = InResults::EveryRow},
     WindowFit::Focused,
     {{WindowFit::None, "none", "the whole cone or scene"},
-     {WindowFit::Tight, "tight", "the camera's frustum cut to the scene"},
-     {WindowFit::Focused, "focused", "the surfaces the camera sees and the light faces"}});
+     {WindowFit::Tight, "tight", "the part of the scene in the camera's frustum"},
+     {WindowFit::Focused, "focused", "the visible surfaces that face the light"}});
 
 constinit const ChoiceOption<bool> kSnap(
     {.name = "snap",
-     .sentence = "texels of spot and directional maps keep their places in the world while the camera moves, for up to "
-                 "9% of the resolution; warped maps cannot snap",
+     .sentence = "texels of spot and directional maps keep their places in the world while the camera moves; costs "
+                 "up to 9% of the resolution. Warped maps cannot snap",
      .results = InResults::EveryRow,
      .told =
          [](const MapOptions& options) { return kSnap.text(options.get(kSnap) && options.get(kWarp) == Warp::None); }},
-    true, {{false, "off", "the window itself"}, {true, "on", "a grid that is fixed in the world"}});
+    true, {{false, "off", "the tightest fit"}, {true, "on", "a grid that is fixed in the world"}});
 
 constinit const NumberOption kCascades(
     {.name = "cascades",
-     .sentence = "layers of a directional map, split by the practical scheme; not with --warp",
+     .sentence = "cascades of a directional map, split by the practical split scheme (Zhang et al. 2006); not with "
+                 "--warp",
      .results = InResults::EveryRow},
     1, 1, kMostCascades);
 
@@ -188,8 +189,7 @@ FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
     }
     planes.push_back(warped.warped ? warped.clipFromPlane : fitWindow(input, frame, points, sceneScale));
   }
-  // Finest first: of the windows that hold a point the first is taken. Texels are small where the scale is
-  // large.
+  // Finest first: of the windows that hold a point the first is taken. Texels are small where the scale is large.
   std::ranges::stable_sort(planes, std::ranges::greater(),
                            [](const glm::dmat3& m) { return std::abs(glm::determinant(m)); });
 
@@ -216,7 +216,7 @@ FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
 class SpotParameterization final : public Parameterization {
  public:
   const char* name() const override { return "spot"; }
-  const char* sentence() const override { return "one perspective layer within a cone"; }
+  const char* sentence() const override { return "one perspective projection of a cone"; }
   int layerCount(const MapOptions&) const override { return 1; }
 
   LightSupport supportsLight(LightType type) const override {
@@ -241,7 +241,7 @@ class DirectionalParameterization final : public Parameterization {
  public:
   const char* name() const override { return "directional"; }
   const char* sentence() const override {
-    return "one orthographic layer; a positional light becomes a sun from its side";
+    return "one orthographic projection; a point or spot light is treated as a sun from the same side";
   }
   int layerCount(const MapOptions& options) const override { return options.get(kCascades); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Spot and directional maps: a window in a plane across the light's axis, one matrix.
+// Spot and directional maps: a window in a plane perpendicular to the light's axis, as one projection matrix.
 //
 // Both are fitted the same way. In the light's frame a point has plane coordinates, (x, y)/-z for a spot and
 // (x, y) for a directional light, and a depth -z. What is to be covered there (kWindowFit; by default

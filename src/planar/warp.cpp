@@ -119,9 +119,8 @@ Extent extentAlong(const glm::dvec2& direction, std::span<const glm::dvec2> poin
   return extent;
 }
 
-// Wimmer, Scherzer, Purgathofer, "Light Space Perspective Shadow Maps", EGSR 2004, section 4.2, in the form
-// of its later errata: n = (z_n + sqrt(z_n z_f)) / sin gamma, z_n and z_f the camera's depths of what it
-// sees.
+// Wimmer, Scherzer, Purgathofer, "Light Space Perspective Shadow Maps", EGSR 2004, section 4.2, in the form of its
+// later errata: n = (z_n + sqrt(z_n z_f)) / sin gamma, z_n and z_f the camera's depths of what it sees.
 double lispsmDistance(const WarpInput& input, const Axis& axis) {
   const ViewRange range = viewRange(input);
   return axis.metre * (range.nearest + std::sqrt(range.nearest * range.farthest)) / axis.sinAngle;
@@ -150,11 +149,12 @@ WarpedPlane warpAlongAxis(Warp warp, const WarpInput& input) {
   const Extent extent = extentAlong(axis.t, input.points);
   // The warp fades out as the light turns to the view; its whole effect is then below a texel.
   if (axis.sinAngle < 1.0 / input.side || extent.length() <= 0.0)
-    return {.note = fmt::format("{}: the light shines along the view, no warp", kWarp.text(warp))};
+    return {.note = fmt::format("{}: not applied, the light shines along the view direction", kWarp.text(warp))};
   double n = warp == Warp::Lispsm ? lispsmDistance(input, axis) : tsmDistance(input, axis, extent);
   if (!std::isfinite(n))
-    return {.note = fmt::format("{}: the nearer half of what is seen fills 80% of the map without a warp, no warp",
-                                kWarp.text(warp))};
+    return {.note =
+                fmt::format("{}: not applied, the nearer half of the visible receivers already fills 80% of the map",
+                            kWarp.text(warp))};
   // Where it is nearer W would vary by more over the points alone; the square is a texel longer, and so its
   // bound is found by trying, in steps that lose at most 5%.
   const double wanted = n;
@@ -167,9 +167,11 @@ WarpedPlane warpAlongAxis(Warp warp, const WarpInput& input) {
     if (!filled) continue;
     return {.clipFromPlane = *filled,
             .warped = true,
-            .note = n > wanted ? fmt::format("{}: weakened, W may vary {:g} times", kWarp.text(warp), kMostWarp) : ""};
+            .note = n > wanted ? fmt::format("{}: weakened, so that texel size varies at most {:g} times",
+                                             kWarp.text(warp), kMostWarp)
+                               : ""};
   }
-  return {.note = fmt::format("{}: what is seen is too narrow to warp, no warp", kWarp.text(warp))};
+  return {.note = fmt::format("{}: not applied, the visible receivers are too narrow", kWarp.text(warp))};
 }
 
 // The camera as PSM has it, moved back by `back` metres, with a view frustum about what the first one sees:
@@ -198,10 +200,9 @@ PostPerspective postPerspective(const glsl::CameraView& camera, const ViewRange&
           .farthest = farthest};
 }
 
-// The light of post-perspective space looks at the middle G of the unit cube from q (homogeneous). With unit
-// axes u, v, a, where a runs from q to G: X = u.(p - G), Y = v.(p - G), W = a.p q.w - a.q p.w, each 0 at q
-// itself, and W the distance along a, up to a factor. Where q lies at infinity W is p.w, and the light is
-// directional there.
+// The light of post-perspective space looks at the middle G of the unit cube from q (homogeneous). With unit axes u, v,
+// a, where a runs from q to G: X = u.(p - G), Y = v.(p - G), W = a.p q.w - a.q p.w, each 0 at q itself, and W the
+// distance along a, up to a factor. Where q lies at infinity W is p.w, and the light is directional there.
 std::optional<glm::dmat3> psmRows(const WarpInput& input, const PostPerspective& camera) {
   const AxisFrame& frame = input.frame;
   const glm::dvec3 towards = frame.worldFromLight[2];
@@ -240,16 +241,16 @@ WarpedPlane warpPsm(const WarpInput& input) {
     if (!filled) continue;
     return {.clipFromPlane = *filled,
             .warped = true,
-            .note = i == 0 ? "" : fmt::format("psm: the virtual camera stands {:.3g} m behind the camera", back)};
+            .note = i == 0 ? "" : fmt::format("psm: the virtual camera is {:.3g} m behind the camera", back)};
   }
-  return {.note = "psm: the light stands among what the camera sees, no warp"};
+  return {.note = "psm: not applied, the light is among the visible receivers"};
 }
 
 }  // namespace
 
 WarpedPlane warpPlane(Warp warp, const WarpInput& input) {
   if (input.receiversW.empty() || input.points.empty())
-    return {.note = fmt::format("{}: the camera sees nothing that faces the light, no warp", kWarp.text(warp))};
+    return {.note = fmt::format("{}: not applied, no visible surface faces the light", kWarp.text(warp))};
   return warp == Warp::Psm ? warpPsm(input) : warpAlongAxis(warp, input);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Planes across a light's axis: what a planar map must cover, how its texels snap, between which depths its
-// casters and receivers lie.
+// Fitting in a plane perpendicular to the light's axis: what a planar map must cover, how its texels snap, and the
+// depth range of its casters and receivers.
 //
 // A ray of the light is a point h of the projective plane: (x, y, 1) of the light's frame without
 // perspective, (x, y, depth) with. A layer is a matrix on that plane, clipFromPlane: (X, Y, W) = M h covers
@@ -53,26 +53,23 @@ double snapLength(double length);
 // The window's edges to -1 and 1, the picture of a layer upright (y down in clip space).
 glm::dmat3 clipFromPlane(const Window& window);
 
-// The least and greatest W of all rays that a layer covers, for W scaled so that (X, Y, 1) are clip
-// coordinates. The least is not positive where the layer holds rays that run across the light's plane or
-// behind it.
+// The least and greatest W of all rays that a layer covers, for W scaled so that (X, Y, 1) are clip coordinates. The
+// least is not positive where the layer holds rays that run across the light's plane or behind it.
 struct WRange {
   double least = 0.0;
   double greatest = 0.0;
 };
 WRange wRange(const glm::dmat3& clipFromPlane);
 
-// Depth of the nearest triangle within the layer, and not nearer than `least`; `farthest` where there is
-// none.
+// Depth of the nearest triangle within the layer, and not nearer than `least`; `farthest` where there is none.
 double nearestCasterDepth(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane, double least,
                           double farthest);
 
 // Depth of the farthest triangle within the layer; `nearest` where there is none behind it.
 double farthestCasterDepth(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane, double nearest);
 
-// How far the triangles within the layer, not nearer than `least`, reach from the depth `from` as a warped
-// layer stores it: the greatest |linearDepth - linearDepth(from)| / W of those behind it (Behind) or before
-// it.
+// How far the triangles within the layer, not nearer than `least`, reach from the depth `from` as a warped layer stores
+// it: the greatest |linearDepth - linearDepth(from)| / W of those behind it (Behind) or before it.
 enum class Reach { Before, Behind };
 double casterReach(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane, double least,
                    double from, Reach side);

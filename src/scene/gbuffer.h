@@ -1,7 +1,6 @@
 #pragma once
-// The G-buffer is a visibility buffer: each pixel names the triangle it sees, and everything else (point,
-// plane, material) is fetched from the triangle itself, the same way in the shaders and, in double, in the
-// truth.
+// The G-buffer is a visibility buffer: each pixel names the triangle it sees, and everything else (point, plane,
+// material) is fetched from the triangle itself, the same way in the shaders and, in double, in the truth.
 
 #include "scene/scene_buffers.h"
 

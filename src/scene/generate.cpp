@@ -25,7 +25,7 @@ std::optional<Scene> openSizedCrowd(const std::string& name) {
   const char* end = name.data() + name.size();
   const auto [stop, failure] = std::from_chars(name.data() + prefix.size(), end, triangles);
   if (failure != std::errc() || stop != end || triangles < kCrowdMin || triangles > kCrowdMax)
-    throw fileError(name, "is not a size of crowd that can be made",
+    throw fileError(name, "is not a possible size of crowd",
                     fmt::format("give crowd:N with N from {} to {} triangles", kCrowdMin, kCrowdMax));
   return makeCrowd(triangles);
 }
@@ -34,26 +34,25 @@ std::optional<Scene> openSizedCrowd(const std::string& name) {
 
 const std::vector<GeneratedScene>& generatedScenes() {
   static const std::vector<GeneratedScene> scenes = {
-      {"lshape", "self-shadowing at silhouettes and light at the foot of a crease: Weiskopf & Ertl 2003, figure 5.",
-       makeLshape},
+      {"lshape", "acne at silhouettes and leaks at a crease: Weiskopf & Ertl 2003, figure 5.", makeLshape},
       {"double-torus",
-       "self-unshadowing of midpoint maps on curved solids, and its filtering: Weiskopf & Ertl 2003, figure "
-       "6.",
+       "leaks of the midpoint bias on curved solids, unfiltered and filtered: Weiskopf & Ertl 2003, figure 6.",
        makeDoubleTorus},
       {"factory", "thin and thick casters side by side, at the size of a real scene: Weiskopf & Ertl 2003, figure 7.",
        makeFactory},
-      {"atrium", "acne on steep columns and detachment under arches, lit from inside: the class of Dou et al. 2014.",
+      {"atrium",
+       "acne on steep columns and leaks under arches, lit from inside: a scene like that of Dou et al. "
+       "2014.",
        makeAtrium},
       {"corner", "acne alone: nothing casts a shadow in a concave corner of three planes.", makeCorner},
-      {"grate", "thin casters near the light, whose shadows fan out, and shafts: Wyman 2011, Dou et al. 2014.",
+      {"grate", "thin casters near the light, shadows that fan out, light shafts: Wyman 2011, Dou et al. 2014.",
        makeGrate},
       {"sheets", "casters without thickness or back faces: leaves, a curtain and an alpha-masked fence.", makeSheets},
       {"contact", "detached shadows (peter-panning) where boxes, spheres and cylinders touch the floor.", makeContact},
-      {"tilted-planes", "acne as a function of the angle to the light: planes from facing it to 88.5 degrees off.",
-       makeTiltedPlanes},
+      {"tilted-planes", "acne as a function of the angle to the light: planes at 0 to 88.5 degrees.", makeTiltedPlanes},
       {"near-far", "a bias in metres cannot be right at one metre and at forty: Dou et al. 2014, figure 7.",
        makeNearFar},
-      {"crowd", "vertex work: instances of shared meshes; crowd:N has about N triangles, to 19 million.",
+      {"crowd", "vertex throughput: instances of shared meshes; crowd:N has about N triangles, up to 19 million.",
        makeDefaultCrowd},
   };
   return scenes;
@@ -72,8 +71,8 @@ Scene openScene(const std::string& nameOrPath) {
   if (std::filesystem::exists(nameOrPath, ignored)) return loadGltf(nameOrPath);
   std::string names;
   for (const GeneratedScene& scene : generatedScenes()) names += (names.empty() ? "" : ", ") + std::string(scene.name);
-  throw fileError(nameOrPath, "is neither a file nor a generated scene",
-                  fmt::format("name a .gltf or .glb file, or one of: {}", names));
+  throw fileError(nameOrPath, "is neither a file nor the name of a generated scene",
+                  fmt::format("give a .gltf or .glb file, or one of: {}", names));
 }
 
 }  // namespace gnomon

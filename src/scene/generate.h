@@ -1,5 +1,5 @@
 #pragma once
-// The generated scenes: deterministic, each with lights and cameras, each made to provoke one artefact.
+// The generated scenes: deterministic, with lights and cameras, each designed to provoke one artefact.
 
 #include "scene/scene.h"
 

@@ -8,11 +8,10 @@
 
 namespace gnomon {
 
-// Positions and cameras are taken in their rest pose: animations are not played. Where they would change a
-// shape, skins, morph weights, sparse accessors, GPU instancing and compressed meshes are refused by name.
-// alphaMode BLEND is read as MASK at cutoff 0.5. KHR_texture_transform is applied to the uvs; light ranges
-// are ignored; orthographic cameras, lines and points are passed over. Only textures of base colours are
-// read.
+// Positions and cameras are taken in their rest pose: animations are not played. Where they would change a shape,
+// skins, morph weights, sparse accessors, GPU instancing and compressed meshes are refused by name. alphaMode BLEND is
+// read as MASK at cutoff 0.5. KHR_texture_transform is applied to the uvs; light ranges are ignored; orthographic
+// cameras, lines and points are passed over. Only textures of base colours are read.
 //
 // Throws WorldError with one line for anything malformed: never crashes, hangs or asks for memory that the
 // file does not back.

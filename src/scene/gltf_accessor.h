@@ -20,8 +20,7 @@ class AccessorView {
   int componentCount() const { return componentCount_; }
   int componentType() const { return componentType_; }  // TINYGLTF_COMPONENT_TYPE_*
 
-  // Components 0..componentCount-1 of element i as floats; integers are scaled where the accessor is
-  // normalized.
+  // Components 0..componentCount-1 of element i as floats; integers are scaled where the accessor is normalized.
   glm::vec4 floats(size_t i) const;
 
   // Element i of an index accessor (unsigned scalars).

@@ -1,6 +1,6 @@
 #pragma once
-// A glTF file between its bytes and a Scene: the container taken apart, the JSON checked and cut down to what
-// Gnomon reads, and only then handed to tinygltf. Internal to the loader.
+// The first stage of loading glTF: unpacks the container, checks the JSON, removes what Gnomon does not read, and only
+// then calls tinygltf. Internal to the loader.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,8 +15,7 @@ class Model;
 
 namespace gnomon {
 
-// An entry of "images". tinygltf never sees these: only those that a base colour uses are fetched and
-// decoded.
+// An entry of "images". tinygltf never sees these: only those that a base colour uses are fetched and decoded.
 struct GltfImage {
   std::string name;
   std::string uri;  // relative to the file, or a data: URI; empty where bufferView is given

@@ -44,8 +44,7 @@ void checkMeshNode(const GltfDocument& document, int index) {
                     "expand the instances to nodes before exporting");
 }
 
-// Matrices that squash a mesh flat have no inverse; their instances are baked, so that nobody has to invert
-// them.
+// Matrices that squash a mesh flat have no inverse; their instances are baked, so that nobody has to invert them.
 bool isInvertible(const glm::dmat4& matrix) {
   const double determinant = glm::determinant(glm::dmat3(matrix));
   return std::isfinite(determinant) && std::abs(determinant) > 1e-18;

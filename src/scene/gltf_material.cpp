@@ -33,8 +33,7 @@ uint64_t bigEndianAt(const std::string& bytes, size_t offset, int size) {
   return value;
 }
 
-// Width and height from the header alone, so that a small file cannot ask for gigabytes. Nothing where there
-// is none.
+// Width and height from the header alone, so that a small file cannot ask for gigabytes. Nothing where there is none.
 std::optional<Size> pixelSize(const std::string& bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n") && bytes.size() >= 24)
     return Size{bigEndianAt(bytes, 16, 4), bigEndianAt(bytes, 20, 4)};

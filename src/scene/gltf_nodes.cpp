@@ -44,8 +44,7 @@ bool isFinite(const glm::dmat4& matrix) {
   return true;
 }
 
-// The roots of the scene that the file shows. Every node has one parent at most, and none is its own
-// ancestor.
+// The roots of the scene that the file shows. Every node has one parent at most, and none is its own ancestor.
 std::vector<int> sceneRoots(const GltfDocument& document) {
   const tinygltf::Model& model = document.model();
   std::vector<int> parent(model.nodes.size(), -1);

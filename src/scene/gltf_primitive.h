@@ -12,17 +12,15 @@ struct Primitive;
 
 namespace gnomon {
 
-// How a material's base-colour texture reads its uvs: which set, and KHR_texture_transform as uv' = m * (u,
-// v, 1).
+// How a material's base-colour texture reads its uvs: which set, and KHR_texture_transform as uv' = m * (u, v, 1).
 struct UvSource {
   int set = 0;
   glm::dmat3 transform{1.0};
 };
 
-// Triangles, strips and fans become indexed triangles; vertices that no triangle uses are left out; where the
-// file has no normals they are flat, as glTF prescribes, with three vertices a triangle. Nothing for points
-// and lines. `where` names the primitive in messages. Mesh space; `closed` and `material` are left to the
-// caller.
+// Triangles, strips and fans become indexed triangles; vertices that no triangle uses are left out; where the file has
+// no normals they are flat, as glTF prescribes, with three vertices a triangle. Nothing for points and lines. `where`
+// names the primitive in messages. Mesh space; `closed` and `material` are left to the caller.
 std::optional<Mesh> loadPrimitive(GltfDocument& document, const tinygltf::Primitive& primitive,
                                   const UvSource& uvSource, const std::string& where);
 

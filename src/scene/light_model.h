@@ -1,5 +1,5 @@
 #pragma once
-// A light as ground truth and maps share it.
+// A light as the ground truth and the maps model it.
 
 #include "scene/scene.h"
 

@@ -1,10 +1,9 @@
 #pragma once
 // Closed solids and open sheets from which the generated scenes are composed.
 //
-// Everything is computed in double and rounded once, and points that two faces share come from one
-// expression, so that they weld exactly: a solid built here is closed in the sense of computeClosed, as long
-// as no two solids of one mesh touch. Faces are counter-clockwise seen from outside (sheets: from the stated
-// side).
+// Everything is computed in double and rounded once, and points that two faces share come from one expression, so that
+// they weld exactly: a solid built here is closed in the sense of computeClosed, as long as no two solids of one mesh
+// touch. Faces are counter-clockwise seen from outside (sheets: from the stated side).
 
 #include "scene/scene.h"
 
@@ -23,8 +22,7 @@ class MeshBuilder {
   void place(const glm::dmat4& worldFromShape) { worldFromShape_ = worldFromShape; }
   void placeAt(const glm::dvec3& origin);
 
-  // One flat face of two triangles, corners counter-clockwise seen from its front; uv (0,1) (1,1) (1,0)
-  // (0,0).
+  // One flat face of two triangles, corners counter-clockwise seen from its front; uv (0,1) (1,1) (1,0) (0,0).
   void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
 
   // 12 triangles.
@@ -48,16 +46,14 @@ class MeshBuilder {
   // 2 * segments * (points - 1) + 2 * (segments - 2) triangles.
   void tube(std::span<const glm::dvec3> path, double radius, int segments);
 
-  // A simple polygon in xy, counter-clockwise, extruded along z from zLower to zUpper. 4 * points - 4
-  // triangles.
+  // A simple polygon in xy, counter-clockwise, extruded along z from zLower to zUpper. 4 * points - 4 triangles.
   void extrude(std::span<const glm::dvec2> polygon, double zLower, double zUpper);
 
   // An open grid of columns x rows cells over (s, t) in [0,1]^2, smooth; its front is where d/ds x d/dt
   // points. uv = (s, 1 - t). 2 * columns * rows triangles.
   void sheet(int columns, int rows, const std::function<glm::dvec3(double s, double t)>& point);
 
-  // A closed surface of cells around (i, wrapping) and along (j); point(i, j) and normal(i, j) of vertex j =
-  // 0..rows.
+  // A closed surface of cells around (i, wrapping) and along (j); point(i, j) and normal(i, j) of vertex j = 0..rows.
   using GridFunction = std::function<glm::dvec3(int i, int j)>;
   void loop(int segments, int rows, const GridFunction& point, const GridFunction& normal);
 

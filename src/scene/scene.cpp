@@ -60,8 +60,7 @@ bool isSolid(const Scene& scene, const Mesh& mesh) {
 
 bool computeClosed(const Mesh& mesh) {
   const std::vector<uint32_t> welded = weldPositions(mesh.positions);
-  // A directed edge is two vertex numbers in one word; closed means that each occurs once, and so does its
-  // reverse.
+  // A directed edge is two vertex numbers in one word; closed means that each occurs once, and so does its reverse.
   std::vector<uint64_t> edges;
   edges.reserve(mesh.indices.size());
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {

@@ -1,6 +1,5 @@
 #pragma once
-// A scene as Gnomon measures it: triangles, instances, lights and cameras, in metres, right-handed, y up
-// (glTF).
+// A scene: triangles, instances, lights and cameras, in metres, right-handed, y up (as in glTF).
 //
 // World space is W. A mesh used by one instance has its transform baked into its positions (in double), so
 // that the shaders, the tracer and the labels read the very same numbers; shared meshes keep their matrices.

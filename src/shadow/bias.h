@@ -1,6 +1,6 @@
 #pragma once
-// The list of biases: name, knobs with unit, range, default and a sentence. Flags, reports, --help and docs
-// derive from it. The decisions themselves are in shaders/shared/bias/.
+// The list of biases: each has a name and parameters with unit, range, default and a sentence. Flags, --help, results
+// and reports derive from it. The biases themselves are in shaders/shared/bias/.
 
 #include "shadow/channel.h"
 #include "shadow/knob.h"

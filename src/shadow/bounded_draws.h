@@ -1,8 +1,7 @@
 #pragma once
-// Triangles on their way to the non-linear rasterizer: a compute shader of the parameterization throws away
-// what a layer does not show and encloses the projection of the rest (shared/bounded_triangle.glsl), and one
-// indirect draw follows. The list holds one batch at a time, so that a scene of any size takes the same
-// memory.
+// Input of the non-linear rasterizer. A compute shader of the parameterization culls the triangles that a layer does
+// not show and bounds the projections of the others (shared/bounded_triangle.glsl); one indirect draw follows.
+// Triangles go in batches, so that a scene of any size takes the same memory.
 
 #include "scene/scene_buffers.h"
 

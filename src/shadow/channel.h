@@ -1,7 +1,7 @@
 #pragma once
-// The list of channels: what a texel of a map may store, in what format, and which pass of the drawing writes it. A bias
-// asks for a set of them (BiasMethod::channels), and a map is drawn with a set (MapImage). What a fragment stores and a
-// tap fetches is in shaders/shadow/store_channels.glsl and fetch_channels.glsl.
+// The list of channels: what a texel of a map may store, in what format, and which draw pass writes it. A bias requests
+// a set of them (BiasMethod::channels), and a map is rendered with a set (MapImage). Fragments store them in
+// shaders/shadow/store_channels.glsl, taps fetch them in fetch_channels.glsl.
 
 #include "gpu/vulkan.h"
 

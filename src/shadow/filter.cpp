@@ -11,15 +11,12 @@ namespace gnomon {
 
 const std::vector<Filter>& filters() {
   static const std::vector<Filter> all = {
-      {.id = glsl::kShadowFilterNone, .name = "none", .tapCount = 1, .sentence = "the one texel that holds the point"},
-      {.id = glsl::kShadowFilterBilinear,
-       .name = "bilinear",
-       .tapCount = 4,
-       .sentence = "the 2 x 2 texels around it, weighted by distance"},
+      {.id = glsl::kShadowFilterNone, .name = "none", .tapCount = 1, .sentence = "the texel that contains the point"},
+      {.id = glsl::kShadowFilterBilinear, .name = "bilinear", .tapCount = 4, .sentence = "2 x 2 PCF, bilinear weights"},
       {.id = glsl::kShadowFilterJitter4x4,
        .name = "jitter4x4",
        .tapCount = 16,
-       .sentence = "16 jittered taps within 4 x 4 texels (Weiskopf & Ertl 2003)",
+       .sentence = "PCF, PCF, 16 jittered taps within 4 x 4 texels (Weiskopf & Ertl 2003)",
        .knobs = {{.name = "width",
                   .unit = Unit::Texels,
                   .lower = 0.0f,

@@ -1,6 +1,6 @@
 #pragma once
-// The list of filters: name, taps, knobs and a sentence. Flags, --help and reports derive from it; their taps and kernels
-// are in shaders/shared/filter.glsl.
+// The list of filters: name, taps, parameters and a sentence. Flags, --help and reports derive from it; the taps and
+// kernels are in shaders/shared/filter.glsl.
 
 #include "shadow/knob.h"
 

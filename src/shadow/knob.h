@@ -1,6 +1,6 @@
 #pragma once
-// A parameter of a bias or a filter, as their lists declare it. Flags, reports, --help and docs derive from it. Its value
-// stands at its own place in the list: knobs[i] of glsl::BiasParams or glsl::FilterParams.
+// A parameter of a bias or a filter, as their lists declare it. Flags, reports, --help and docs derive from it. The
+// i-th in the list has its value in knobs[i] of glsl::BiasParams or glsl::FilterParams.
 
 #include <string>
 
@@ -18,8 +18,7 @@ struct Knob {
   float defaultValue;
   bool defaultOfSceneScale;
   const char* sentence;
-  // Where a search for the best value looks, in the unit of the default (of the scene's diagonal, where that
-  // is).
+  // Where a search for the best value looks, in the unit of the default (of the scene's diagonal, where that is).
   float searchLower = 0.0f, searchUpper = 0.0f;
 
   float defaultFor(float sceneScale) const { return defaultValue * (defaultOfSceneScale ? sceneScale : 1.0f); }

@@ -6,8 +6,7 @@ namespace gnomon {
 
 namespace {
 
-// Of the coordinates of clip space: a point is projected to within a few ulps. What is let through is clipped
-// anyway.
+// Of the coordinates of clip space: a point is projected to within a few ulps. What is let through is clipped anyway.
 constexpr float kSlack = 1e-3f;
 
 }  // namespace

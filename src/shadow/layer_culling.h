@@ -1,6 +1,6 @@
 #pragma once
-// What of a scene some layers may show, so that the rest is not sent to them: whole draws, and of
-// large draws the parts that SceneBuffers cuts them in. Nothing that a layer shows is left out.
+// Culling for a map's layers: whole draws, and the parts that SceneBuffers cuts large draws into. Conservative: nothing
+// that a layer shows is left out.
 
 #include "scene/scene_buffers.h"
 #include "shadow/parameterization.h"
@@ -24,8 +24,7 @@ class LayerCulling {
   std::vector<Range> rangesOf(const SceneBuffers& scene, const Draw& draw) const;
 
  private:
-  // Rows x, y and w of clip space, as functions of a point in the light's frame and in the world (but for a
-  // constant).
+  // Rows x, y and w of clip space, as functions of a point in the light's frame and in the world (but for a constant).
   struct Projective {
     glm::vec4 fromLight[3];
     glm::vec3 fromWorld[3];

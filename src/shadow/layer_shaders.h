@@ -1,10 +1,11 @@
 #pragma once
-// How a parameterization's slices are drawn: a value that comes with its fit (FittedMap::shaders), and all that
-// MapRenderer knows of it.
+// How a parameterization's slices are drawn. Part of the fit (FittedMap::shaders), and all that MapRenderer knows about
+// the parameterization.
 //
-// Every shader reads the scene's bindings, the map's uniforms at kBindMap and, as push constants, as much of the front of
-// LayerPush as it needs (shadow/drawn_slice.glsl). Specialization constants: 0 is kMasked, 1 leaves the holes of alpha
-// masks open; 1 is kPass*; 2 is the map's kind (kMap*); 3 is 1 where one pass draws all slices; 4 is the channels that the pass stores.
+// Every shader reads the scene's bindings, the map's uniforms at kBindMap and, as push constants, as much of the front
+// of LayerPush as it needs (shadow/drawn_slice.glsl). Specialization constants: 0 is kMasked, 1 leaves the holes of
+// alpha masks open; 1 is kPass*; 2 is the map's kind (kMap*); 3 is 1 where one pass draws all slices; 4 is the
+// channels that the pass stores.
 
 #include <cstdint>
 
@@ -23,14 +24,13 @@ struct LayerShaders {
   const char* fragment = "shadow/draw_depth.frag.glsl";
   // Depth is the rasterizer's own: where there is nothing else to store, opaque meshes need no fragment shader.
   bool rasterizedDepth = true;
-  // Empty: indexed triangles, whose corners the vertex shader projects and which the rasterizer culls by
-  // winding. Else a compute shader that writes the triangles a layer shows, each with four corners around its
-  // projection (shared/bounded_triangle.glsl): these are drawn by shadow/pull_bounded_triangle.vert.glsl, and
-  // the fragment shaders decide each texel. Or one that writes triangles of its own for a vertex shader of
-  // its own, in the same room (shared/straight_triangle.glsl).
+  // Empty: indexed triangles, whose corners the vertex shader projects and which the rasterizer culls by winding. Else
+  // a compute shader that writes the triangles a layer shows, each with four corners around its projection
+  // (shared/bounded_triangle.glsl): these are drawn by shadow/pull_bounded_triangle.vert.glsl, and the fragment shaders
+  // decide each texel. Or one that writes triangles of its own for a vertex shader of its own, in the same buffer
+  // (shared/straight_triangle.glsl).
   const char* bounds = "";
-  // One bit a layer that mirrors: there, what winds counter-clockwise seen from the light is clockwise on the
-  // layer.
+  // One bit a layer that mirrors: there, what winds counter-clockwise seen from the light is clockwise on the layer.
   uint32_t mirroredLayers = 0;
   // The layers are clipFromLight's: what its sides do not let through need not be drawn.
   bool projective = true;

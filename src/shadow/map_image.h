@@ -1,6 +1,6 @@
 #pragma once
-// A shadow map on the GPU: for each of its channels (shadow/channel.h) an array of slices, drawn slice by slice by the
-// shaders that the parameterization gives, once for each pass that writes one of them.
+// A shadow map on the GPU: one array image for each of its channels (shadow/channel.h). It is drawn slice by slice with
+// the parameterization's shaders, once for each pass that writes one of the channels.
 
 #include "shadow/bounded_draws.h"
 #include "shadow/channel.h"
@@ -15,8 +15,8 @@ namespace gnomon {
 
 // How the second depth layer is found. Both give the same bits where the peel's tolerance is 0.
 enum class SecondLayer {
-  // Depth test "greater than the first layer" against its own depth buffer, MIN blending into a float target: no texture
-  // is read, and every fragment before the first layer dies in the early depth test.
+  // Depth test "greater than the first layer" against its own depth buffer, MIN blending into a float target: no
+  // texture is read, and every fragment before the first layer dies in the early depth test.
   Blend,
   // Depth peeling as in the paper: a fragment shader throws away what equals the first layer.
   Peel,

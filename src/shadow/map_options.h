@@ -1,6 +1,6 @@
 #pragma once
-// Options of maps: how a map is fitted and drawn, as far as a user may choose. A parameterization declares its options
-// beside the code that reads them; flags, --help, results.json and the command lines of reports derive from that.
+// The user's options for fitting and drawing maps. A parameterization declares its options beside the code that reads
+// them; flags, --help, results.json and the command lines in reports follow from the declaration.
 //
 //   constinit const ChoiceOption<CubeDepth> kCubeDepth({.name = "cube_depth", ...}, CubeDepth::Hyperbolic, {...});
 //

@@ -1,7 +1,6 @@
 #pragma once
-// Whether a device draws all layers of a projective map in one pass (multiview) as it does one by one, and
-// which is faster: asked of the device itself, since lavapipe 22.3.6 sends triangles to the wrong layers
-// (gpu::RenderTargets::viewMask).
+// Tests on the device itself whether one multiview pass draws all layers of a projective map correctly, and whether it
+// is faster than one pass a layer: lavapipe 22.3.6 sends triangles to the wrong layers (gpu::RenderTargets::viewMask).
 
 #include "scene/scene_buffers.h"
 #include "shadow/parameterization.h"

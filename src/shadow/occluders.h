@@ -1,6 +1,7 @@
 #pragma once
-// What a light meets first along each of its rays, drawn on a device: the depths of a shadow map (map_image.h) or
-// the bits of a shadow volume (vsv/shadow_volume.h). Whoever lights a picture asks here and need not know which.
+// The first occluder along each of a light's rays, rendered on a device: the depths of a shadow map (map_image.h) or
+// the bits of a shadow volume (vsv/shadow_volume.h). Code that lights a picture uses this interface and need not know
+// which.
 
 #include "gpu/commands.h"
 #include "scene/gbuffer.h"
@@ -16,8 +17,8 @@ class MapRenderer;
 class VisibilityPass;
 
 enum class CullMode {
-  Solids,  // back faces of closed one-sided meshes, seen from the light, are left out (Weiskopf & Ertl 2003,
-           // section 4)
+  // Back faces of closed one-sided meshes, seen from the light, are left out (Weiskopf & Ertl 2003, section 4).
+  Solids,
   None,
 };
 

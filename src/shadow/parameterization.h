@@ -1,7 +1,7 @@
 #pragma once
-// A parameterization, as the rest of Gnomon sees it: it fits itself to a scene and a light, and draws its
-// layers. Its mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in
-// shaders/shared/map.glsl, and a FittedMap carries the numbers those functions read.
+// The interface of a parameterization: it fits itself to a scene and a light, and says how its layers are drawn. Its
+// mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in shaders/shared/map.glsl, and a
+// FittedMap carries the numbers those functions read.
 //
 // Spot and directional maps are in planar/, cube and paraboloid maps in omni/, the shadow volume in vsv/; the list of
 // all is in lab/core/maps.h.
@@ -78,8 +78,7 @@ class Parameterization {
   // How a light is taken. `aimW` is the unit direction in which a light without one of its own is made to
   // shine. The light is of a kind that is supported.
   virtual LightModel lightModel(const Light& light, const glm::dvec3& aimW) const = 0;
-  // Whether a bias means anything on it, and whether its texels can be filtered: a shadow volume holds no
-  // depths.
+  // Whether a bias means anything on it, and whether its texels can be filtered: a shadow volume holds no depths.
   virtual bool supportsBias(const BiasMethod&) const { return true; }
   virtual bool supportsFilters() const { return true; }
   virtual FittedMap fit(const FitInput& input) const = 0;

@@ -27,7 +27,7 @@ Unit parseUnit(const UserBias& bias, int line, const std::string& word) {
   if (word == "metres") return Unit::Metres;
   if (word == "texels") return Unit::Texels;
   if (word == "one") return Unit::One;
-  throw lineError(bias, line, fmt::format("'{}' is no unit", word), "write metres, texels or one");
+  throw lineError(bias, line, fmt::format("'{}' is not a unit", word), "write metres, texels or one");
 }
 
 bool isKnobName(const std::string& name) {
@@ -42,17 +42,18 @@ void readKnob(UserBias& bias, int line, const std::string& text) {
   Knob knob{};
   words >> name >> unit >> knob.lower >> knob.upper >> knob.defaultValue;
   if (!words || !(knob.lower <= knob.upper))
-    throw lineError(bias, line, "the knob is not understood", "write //! knob: NAME UNIT LOWER UPPER DEFAULT [scene]");
+    throw lineError(bias, line, "the parameter is not understood",
+                    "write //! knob: NAME UNIT LOWER UPPER DEFAULT [scene]");
   if (words >> rest && rest != "scene")
-    throw lineError(bias, line, fmt::format("'{}' after the knob's default", rest), "write scene, or nothing");
+    throw lineError(bias, line, fmt::format("'{}' after the parameter's default", rest), "write scene, or nothing");
   if (!isKnobName(name))
-    throw lineError(bias, line, fmt::format("'{}' cannot name a knob", name),
+    throw lineError(bias, line, fmt::format("'{}' cannot name a parameter", name),
                     "begin with a letter, and take letters, digits, - and _ only");
   for (const Knob& other : knobs)
     if (knobConstant(other.name) == knobConstant(name))
-      throw lineError(bias, line, fmt::format("two knobs are named '{}'", name), "rename one of them");
+      throw lineError(bias, line, fmt::format("two parameters are named '{}'", name), "rename one of them");
   if (std::ssize(knobs) == glsl::kMostKnobs)
-    throw lineError(bias, line, fmt::format("'{}' is one knob too many", name),
+    throw lineError(bias, line, fmt::format("'{}' is one parameter too many", name),
                     fmt::format("a bias has at most {}", glsl::kMostKnobs));
   knob.unit = parseUnit(bias, line, unit);
   knob.defaultOfSceneScale = rest == "scene";
@@ -66,7 +67,7 @@ void readKnob(UserBias& bias, int line, const std::string& text) {
 void readChannels(UserBias& bias, int line, const std::string& text) {
   const std::optional<ChannelSet> set = parseChannels(text);
   if (!set)
-    throw lineError(bias, line, fmt::format("'{}' is no list of channels", text),
+    throw lineError(bias, line, fmt::format("'{}' is not a list of channels", text),
                     fmt::format("choose from {}", channelNames()));
   bias.method.channels = *set;
 }
@@ -128,7 +129,7 @@ std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, 
   bias->path = path.string();
   bias->source = source;
   bias->name = path.stem().string();
-  bias->sentence = "A bias of your own: " + bias->path;
+  bias->sentence = "Your own bias: " + bias->path;
   bias->knobSentence = fmt::format("a knob of {}", bias->path);
   readHeader(*bias);
   bias->knobsGlsl = knobsGlsl(bias->method.knobs);
@@ -139,8 +140,8 @@ std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, 
   if (bias->name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") !=
           std::string::npos ||
       bias->name.starts_with('.'))
-    throw fileError(bias->path, fmt::format("'{}' cannot name files", bias->name),
-                    "take letters, digits, -, _ and . only");
+    throw fileError(bias->path, fmt::format("'{}' cannot be part of a file name", bias->name),
+                    "use letters, digits, -, _ and . only");
   bias->method.id = glsl::kBiasUser;
   bias->method.name = bias->name.c_str();
   bias->method.sentence = bias->sentence.c_str();

@@ -1,17 +1,17 @@
 #pragma once
-// A user's own bias: a GLSL file that takes the place of shaders/shared/bias/user.glsl and defines
+// A user's own bias: a GLSL file that replaces shaders/shared/bias/user.glsl and defines
 //
 //   bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap)
 //
-// It may say of itself, in lines of their own that begin with "//!":
+// It may declare, in lines that begin with "//!":
 //
 //   //! name: my-bias                          default: the file's name
 //   //! sentence: What it does.
 //   //! channels: depth, second-depth          what it reads of a texel (src/shadow/channel.cpp); default: depth
-//   //! knob: offset metres 0 10 0.001 scene   name, unit (metres, texels, one), lower and upper bound, default, which
-//                                              with "scene" is a share of the scene's diagonal; at most 4 such lines
+//   //! knob: offset metres 0 10 0.001 scene   name, unit (metres, texels, one), lower and upper bound, default
+//                                              (with "scene": a fraction of the scene's diagonal); at most 4 lines
 //
-// The value of knob `max-offset` is params.knobs[kUserMaxOffset].
+// The value of parameter `max-offset` is params.knobs[kUserMaxOffset].
 
 #include "shadow/bias.h"
 

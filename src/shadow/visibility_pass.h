@@ -1,5 +1,6 @@
 #pragma once
-// Pixels to light or shadow by a map and a bias, and to a picture.
+// The visibility pass (each pixel's visibility by a map, a bias and a filter) and the radiance pass (the shaded
+// picture).
 
 #include "scene/gbuffer.h"
 #include "shadow/bias.h"

@@ -29,9 +29,8 @@ struct Stretch {
   double jump = 0.0;  // metres: how far either hit lies off the other's plane; 0 where the stretch is settled
 };
 
-// How far two hits are from lying in one plane: a jump of distance that either plane's slope explains counts
-// nothing, however steep. Seen side by side, a crease's jump shrinks with the stretch; a silhouette's does
-// not.
+// How far two hits are from lying in one plane: a jump of distance that either plane's slope explains counts nothing,
+// however steep. Seen side by side, a crease's jump shrinks with the stretch; a silhouette's does not.
 double jumpBetween(const Probe& a, const Probe& b) {
   if (!a.hit && !b.hit) return 0.0;
   if (!a.hit || !b.hit) return std::numeric_limits<double>::infinity();
@@ -42,17 +41,14 @@ double jumpBetween(const Probe& a, const Probe& b) {
 
 // --- The judgement at the end of bisection -------------------------------------------------------------
 //
-// The rays a and b span a plane through the light, the fan. It cuts the two triangles that were hit in two
-// segments:
+// The rays a and b span a plane through the light, the fan. It cuts the two triangles that were hit in two segments:
 //
 //           light                    light
 //            /\                       /\            y: along the rays, x: from a to b
 //         a /  \ b                 a /  \ b
 //          /    \                   /    \          The segments are clipped to the wedge between the rays.
-//          In one
-//       --A------+                --A--   \         piece (left: a crease, a corner, a wall on a floor) they
-//       touch
-//                 B                     ---B--      there; across a silhouette (right) they do not.
+//       --A------+                --A--   \         In one piece (left: a crease, a corner, a wall on a floor) they
+//                 B                     ---B--      touch there; across a silhouette (right) they do not.
 //                 |
 //
 // Neighbours share corners, so their cuts share an end to double precision, at any steepness: nothing has to
@@ -171,12 +167,10 @@ bool joined(const Tracer& tracer, const Probe& a, const Probe& b, double margin)
   return gap <= margin + widest * (1.0 + std::min(steepness(a) + steepness(b), kSteepest));
 }
 
-// Whether two hits lie on neighbours: the cuts share an end T, the first triangle ends there and the second
-// begins.
+// Whether two hits lie on neighbours: the cuts share an end T, the first triangle ends there and the second begins.
 //
-//        a      T        b      What is seen from a to T is the one, from T to b the other: one piece,
-//        however |      |        |      wide the stretch is. Cuts that touch otherwise (a wall on the middle
-//        of a
+//        a      T        b      What is seen from a to T is the one, from T to b the other: one piece, however
+//        |      |        |      wide the stretch is. Cuts that touch otherwise (a wall on the middle of a
 //      --A------+---B----+--    floor, a table's leg) may hide one another and are left to bisection.
 bool neighbours(const Tracer& tracer, const Probe& a, const Probe& b, double margin) {
   if (!a.hit || !b.hit) return false;

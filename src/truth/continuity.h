@@ -1,6 +1,6 @@
 #pragma once
-// One surface or two, seen from a light: whether what is first hit stays in one piece between two light rays,
-// of a point light (one origin) or a directional one (one direction). Frame: W, metres.
+// The continuity test: whether the first-hit surface, seen from the light, is in one piece between two light rays, of a
+// point light (one origin) or a directional light (one direction). Frame: W, metres.
 
 #include "truth/tracer.h"
 

@@ -14,9 +14,8 @@ bool liesBefore(const Probe& texel, const SurfaceSample& receiver, double receiv
   return glm::dot(receiver.normalW, texel.positionW() - receiver.positionW) > margin;
 }
 
-// Of a pixel where prediction and truth differ. The pixel's own ray is not traced: what it hits first, where
-// there is light, is the pixel's own triangle, and a ray that ends on an edge would say so only half of the
-// time.
+// Of a pixel where prediction and truth differ. The pixel's own ray is not traced: what it hits first, where there is
+// light, is the pixel's own triangle, and a ray that ends on an edge would say so only half of the time.
 Label labelWrong(const Tracer& tracer, const LightRays& rays, const SurfaceSample& receiver, bool lit, double margin,
                  const RayD& texelRay) {
   const LightRay own = rays.towards(receiver.positionW);

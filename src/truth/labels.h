@@ -1,18 +1,17 @@
 #pragma once
-// Why a shadow map is wrong at a pixel, by exact rays.
+// Labels each wrong pixel of a shadow map with the reason, by ray tracing.
 //
 //   agree        prediction = truth
 //   acne         predicted shadow where there is light, and the surface is continuous, seen from the light,
-//                between the texel centre's ray and the pixel's: nothing there casts a shadow. The bias
-//                failed
+//                between the texel centre's ray and the pixel's: nothing there casts a shadow. The bias failed
 //   leak         predicted light where there is shadow, although the first hit along the texel centre's ray
 //                lies before the receiver's plane: the map held the occluder, the bias stepped over it
 //   edge_shadow  predicted shadow where there is light, across a silhouette: the map is too coarse there
 //   edge_light   predicted light where there is shadow, and no leak
 //   uncovered    the map does not cover the pixel
 //
-// Acne and leak are what a bias is answerable for. "Before" means by more than the end margin of the truth's
-// rays.
+// Acne and leak are bias errors; edges come from the map's resolution. "Before" means by more than the end margin of
+// the ground truth's rays.
 
 #include "truth/continuity.h"
 #include "truth/visibility.h"

@@ -1,7 +1,7 @@
 #pragma once
-// The exact light that a medium scatters towards the camera: single scattering of point lights, visibility by
-// Embree, everything else in double. The model is that of shaders/shared/medium.glsl, written out a second
-// time on purpose: a reference that shared the shaders' functions could not find what is wrong with them.
+// The reference for participating media: single scattering of point lights, with visibility by Embree and everything
+// else in double precision. The model is that of shaders/shared/medium.glsl, deliberately implemented a second time: a
+// reference that shared the shaders' functions could not find their errors.
 
 #include "base/image.h"
 #include "truth/receivers.h"
@@ -56,13 +56,12 @@ struct MediaReference {
 // Metres from the eye to the surface a pixel sees, or to `reach` where that is nearer or there is none.
 std::vector<double> viewRayEnds(const glsl::CameraView& camera, const Receivers& receivers, double reach);
 
-// `ends`: a view ray's length in metres, one a pixel. Visibility is sampled at stratified points, jittered,
-// along phi, the angle at the light (equiangular sampling: Kulla and Fajardo, "Importance Sampling Techniques
-// for Path Tracing in Participating Media", EGSR 2012), and bisected between neighbours that differ. A tile's
-// samples are doubled until two doublings in a row change none of its pixels by more than the bound: one
-// alone is easily quiet because both passed a thin shaft by. Steps through a density are halved, too, until
-// that changes none by more. All cores; the same whatever their number. Shows
-// progress.
+// `ends`: a view ray's length in metres, one a pixel. Visibility is sampled at stratified points, jittered, along phi,
+// the angle at the light (equiangular sampling: Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in
+// Participating Media", EGSR 2012), and bisected between neighbours that differ. A tile's samples are doubled until two
+// doublings in a row change none of its pixels by more than the bound: one alone is easily quiet because both passed a
+// thin shaft by. Steps through a density are halved, too, until that changes none by more. Uses all cores; the result
+// does not depend on their number. Shows progress.
 MediaReference computeMediaReference(const Tracer& tracer, std::span<const MediaLight> lights,
                                      const glsl::CameraView& camera, std::span<const double> ends,
                                      const MediumModel& medium, const MediaReferenceOptions& options = {});

@@ -22,8 +22,7 @@ double upOf(const glsl::CameraView& camera, int y) {
   return (1.0 - 2.0 * (y + 0.5) / camera.height) * static_cast<double>(camera.tanHalfY);
 }
 
-// Metres from a plane to the light, positive on the normal's side; of a directional light, only the sign
-// means much.
+// Metres from a plane to the light, positive on the normal's side; of a directional light, only the sign means much.
 double sideOfLight(const LightModel& light, const glm::dvec3& pointW, const glm::dvec3& normalW) {
   if (light.type == LightType::Directional) return -glm::dot(normalW, light.directionW);
   return glm::dot(normalW, light.positionW - pointW);

@@ -1,6 +1,6 @@
 #pragma once
-// What each pixel sees, in double precision: the point on the primitive that the G-buffer names, along the
-// pixel's ray, and whether a light scores it.
+// The receivers, in double precision: for each pixel the point where its ray meets the primitive in the G-buffer, and
+// whether the pixel is scored for a light.
 
 #include "scene/light_model.h"
 #include "scene/scene.h"

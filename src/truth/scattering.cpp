@@ -17,9 +17,8 @@ namespace {
 // can tell (they know a direction to 2^-24); what scatters right there would be infinite.
 constexpr double kLeastAside = 0x1p-26;
 
-// Gauss and Kronrod's rule of 15 points, which contains Gauss's of 7: abscissae on [-1, 1] from the outermost
-// to the middle, and both weights (Piessens, de Doncker-Kapenga, Ueberhuber, Kahaner, "QUADPACK", 1983,
-// QK15).
+// Gauss and Kronrod's rule of 15 points, which contains Gauss's of 7: abscissae on [-1, 1] from the outermost to the
+// middle, and both weights (Piessens, de Doncker-Kapenga, Ueberhuber, Kahaner, "QUADPACK", 1983, QK15).
 constexpr std::array kKronrodAt = {0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
                                    0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
                                    0.586087235467691130294144691693170, 0.405845151377397166906606412076961,

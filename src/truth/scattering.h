@@ -2,10 +2,8 @@
 // The light that reaches the eye along one view ray by a single scattering of one point light, given which
 // parts of the ray the light reaches. Double precision throughout; media_reference.h finds the parts.
 //
-//            P                    The plane of the eye E, the light L and the view ray. s runs along the ray
-//            from
-//           / \                   E; `ahead` is where the ray passes L nearest and `aside` how near; phi is
-//           the
+//            P                    The plane of the eye E, the light L and the view ray. s runs along the ray from
+//           / \                   E; `ahead` is where the ray passes L nearest and `aside` how near; phi is the
 //        r /   \ s                angle at L, from 0 at the eye:
 //         /phi  \                   tan phi = s aside / (D^2 - s ahead),   ds / r^2 = d phi / aside
 //        L-------E
@@ -40,8 +38,7 @@ struct LitPiece {
   double from = 0.0, to = 0.0;
 };
 
-// Of a homogeneous medium, cd/m^2: adaptive quadrature, each piece to within `tolerance` (infinity: one rule
-// a piece).
+// Of a homogeneous medium, cd/m^2: adaptive quadrature, each piece to within `tolerance` (infinity: one rule a piece).
 glm::dvec3 scatterHomogeneous(const ScatteringRay& ray, std::span<const LitPiece> pieces, const MediumModel& medium,
                               double tolerance);
 
@@ -49,8 +46,7 @@ glm::dvec3 scatterHomogeneous(const ScatteringRay& ray, std::span<const LitPiece
 // node is worked out when light first reaches it, so that other pieces of the same ray cost next to nothing.
 class DensityProfile {
  public:
-  // Nodes at most `step` metres apart, and at least `cells` of equal phi between them; as fine towards the
-  // light.
+  // Nodes at most `step` metres apart, and at least `cells` of equal phi between them; as fine towards the light.
   DensityProfile(const ScatteringRay& ray, const MediumModel& medium, double step, int cells);
 
   // cd/m^2. The ray and the medium are those of the constructor.
@@ -72,12 +68,10 @@ class DensityProfile {
 // The most that a radian of phi can give, in any channel: cd/m^2.
 double largestShare(const ScatteringRay& ray, const MediumModel& medium);
 
-// Optical depth at density 1 per metre: the integral of the density between two points, in steps of `step`
-// metres.
+// Optical depth at density 1 per metre: the integral of the density between two points, in steps of `step` metres.
 double densityBetween(const DensityField& density, const glm::dvec3& fromW, const glm::dvec3& toW, double step);
 
-// Henyey and Greenstein, "Diffuse Radiation in the Galaxy", Astrophysical Journal 93 (1941), equation 2;
-// 1/sr.
+// Henyey and Greenstein, "Diffuse Radiation in the Galaxy", Astrophysical Journal 93 (1941), equation 2; 1/sr.
 double phaseFunction(double g, double cosTurned);
 
 }  // namespace gnomon

@@ -18,9 +18,8 @@ namespace gnomon {
 
 namespace {
 
-// How far beyond the receiver a segment is traced, as a share of its length: whatever lies near the receiver
-// must reach the filter, which decides in double. Embree's float distances are good to 1e-6 but for surfaces
-// seen edge-on.
+// How far beyond the receiver a segment is traced, as a share of its length: whatever lies near the receiver must reach
+// the filter, which decides in double. Embree's float distances are good to 1e-6 but for surfaces seen edge-on.
 constexpr float kOvershoot = 1.0f / 1024.0f;
 // What Embree meets before this share of a segment to a point in mid-air blocks it without a second look.
 constexpr float kSurelyBefore = 1.0f - kOvershoot;
@@ -301,8 +300,7 @@ inline void Tracer::Impl::putRay(const RayD& ray, double distance, const glm::dv
   rays.id[id] = id;
 }
 
-// Not flagged as coherent: with instances in the scene Embree 3.13.5's coherent packet path was seen not to
-// return.
+// Not flagged as coherent: with instances in the scene Embree 3.13.5's coherent packet path was seen not to return.
 void Tracer::Impl::tracePacket(std::span<const ShadowSegment> segments, double enough, double* heights) const {
   glm::dvec3 receivers[kPacket];
   Query query{.impl = this, .segments = segments.data(), .receivers = receivers, .heights = heights, .enough = enough};

@@ -47,8 +47,7 @@ struct ShadowSegment {
 
 class Tracer {
  public:
-  // Builds the hierarchy; all cores. Throws WorldError where memory does not suffice. `scene` must outlive
-  // the tracer.
+  // Builds the hierarchy; all cores. Throws WorldError where memory does not suffice. `scene` must outlive the tracer.
   explicit Tracer(const Scene& scene);
   ~Tracer();
   Tracer(const Tracer&) = delete;

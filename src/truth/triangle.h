@@ -1,6 +1,5 @@
 #pragma once
-// A ray against one triangle, in double precision: what Embree's float hits are replaced by. Frame: W,
-// metres.
+// Ray-triangle intersection in double precision, which replaces Embree's float hits. Frame: W, metres.
 
 #include "truth/tracer.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The exact shadow: one ray a scored pixel, from the light to the surface.
+// The exact shadow: one ray for each scored pixel, from the light to the surface.
 
 #include "truth/receivers.h"
 

@@ -86,7 +86,7 @@ TEST_F(CliTest, CompareLeavesAPageAndReportMakesTheSameOneAgain) {
 
 // Of the commands that a page shows for its rows, as a person would copy them.
 std::vector<std::string> rowCommandsOf(std::string page) {
-  const std::string before = "<h3>Make it again</h3>\n<div class=\"command\"><code>";
+  const std::string before = "<h3>Command for this row</h3>\n<div class=\"command\"><code>";
   std::vector<std::string> commands;
   for (size_t at = page.find(before); at != std::string::npos; at = page.find(before, at)) {
     at += before.size();
@@ -241,11 +241,12 @@ TEST_F(CliTest, AFilesKnobsAreSetByName) {
                 std::string("//! knob: reach texels 0 8 1\n//! knob: offset metres 0 9 1\n") + lit);
   writeTextFile(folder_ / "plain.glsl", lit);
   const std::string small = " --biases none --size 32 --map-size 32 --repeats 1 --json @/r.json";
-  ASSERT_EQ(run("compare corner --bias-file @/one.glsl --bias-file @/two.glsl --bias-file @/plain.glsl --bias-file-knob "
-                "reach=2 --bias-file-knob offset=3" +
-                small)
-                .exitCode,
-            0);
+  ASSERT_EQ(
+      run("compare corner --bias-file @/one.glsl --bias-file @/two.glsl --bias-file @/plain.glsl --bias-file-knob "
+          "reach=2 --bias-file-knob offset=3" +
+          small)
+          .exitCode,
+      0);
   auto rows = nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows");
   EXPECT_EQ(rows[1].at("params").at("reach"), 2);
   EXPECT_EQ(rows[2].at("params").at("reach"), 2);
@@ -256,11 +257,11 @@ TEST_F(CliTest, AFilesKnobsAreSetByName) {
 
   expectMistake("compare corner --bias-file-knob 4", 2, "--bias-file-knob needs a --bias-file");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob 4", 2,
-                "two.glsl has 2 knobs; write NAME=VALUE, NAME one of reach, offset");
-  expectMistake("compare corner --bias-file @/plain.glsl --bias-file-knob 4", 2, "plain.glsl has no knob");
+                "two.glsl has 2 parameters; write NAME=VALUE, where NAME is one of reach, offset");
+  expectMistake("compare corner --bias-file @/plain.glsl --bias-file-knob 4", 2, "plain.glsl has no parameter");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob rich=4", 2,
-                "--bias-file-knob rich=4: no such knob; choose from reach, offset");
-  expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=much", 2, "'much' is no number");
+                "--bias-file-knob rich=4: no such parameter; choose from reach, offset");
+  expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=much", 2, "'much' is not a number");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=9", 2,
                 "--bias-file-knob reach 9 is outside 0..8 texels");
 }
@@ -296,7 +297,7 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("compare contact --maps disc", 2, "--maps disc: no such map");
   expectMistake("compare contact --biases adaptve", 2, "adaptve: no such bias");
   expectMistake("compare contact --maps vsv --biases slope,dual", 2,
-                "--maps vsv takes none of these --biases; choose from none, constant, adaptive");
+                "--maps vsv supports none of these --biases; choose from none, constant, adaptive");
   expectMistake("compare contact --maps vsv --biases none --filters bilinear", 2, "--maps vsv takes no filter");
   expectMistake("compare contact --maps vsv --vsv-size 64x64x100", 2, "--vsv-size 64x64x100");
   expectMistake("compare contact --maps vsv --vsv-source cube", 2, "--vsv-source cube");
@@ -323,7 +324,7 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("compare contact --cascades 2 --warp tsm", 2, "--cascades 2 with --warp tsm");
   expectMistake("compare contact --repeats 0", 2, "--repeats");
   expectMistake("compare contact --no-such-flag", 2, "--no-such-flag");
-  expectMistake("render contact -o @/a.jpg", 2, "write a .png or an .exr");
+  expectMistake("render contact -o @/a.jpg", 2, "the name must end in .png or .exr");
   expectMistake("render contact --biases all -o @/a.png", 2, "one configuration");
   expectMistake("fog grate --integrators rays", 2, "--integrators rays");
   expectMistake("fog grate --steps 0", 2, "--steps 0");
@@ -336,7 +337,7 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("fog grate --reach 0", 2, "--reach 0");
   expectMistake("fog grate --bound 0", 2, "--bound 0");
   expectMistake("fog grate --density-scale 2", 2, "need a --density");
-  expectMistake("fog grate --frames 3", 2, "--frames and --move need each other");
+  expectMistake("fog grate --frames 3", 2, "--frames and --move: give both or neither");
   expectMistake("fog grate --frames 3 --move sun:1,0,0", 2, "--move sun:1,0,0");
   expectMistake("fog grate --frames 3 --move light:1,0,0", 2, "give a folder with -o");
   expectMistake("scene tilted-planes", 2, "-o FILE.glb");
@@ -357,7 +358,7 @@ TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
   expectMistake("scene nothing -o @/a.glb", 1, "nothing");
   expectMistake("scene --density steam -o @/a.vdb", 2, "choose of puff, fog, turbulence");
   expectMistake("scene --density puff", 2, "-o FILE.vdb");
-  expectMistake("scene --density puff -o @/a.glb", 2, "write a .vdb");
+  expectMistake("scene --density puff -o @/a.glb", 2, "the name must end in .vdb");
   expectMistake("scene grate --density puff -o @/a.vdb", 2, "--for grate");
   expectMistake("scene --density puff --for nothing -o @/a.vdb", 1, "nothing");
   expectMistake("compare contact --shader-dir @/none --size 16", 1, "none");
@@ -431,7 +432,7 @@ TEST_F(CliTest, VsvSaysWhatIsWrong) {
   expectMistake("vsv contact --vsv-size 64x64", 2, "--vsv-size");
   expectMistake("vsv contact --vsv-source map", 2, "--vsv-source map");
   expectMistake("vsv contact --vsv-fit tight", 2, "--vsv-fit tight");
-  expectMistake("vsv contact --vdb @/v.nvdb", 2, "write a .vdb");
+  expectMistake("vsv contact --vdb @/v.nvdb", 2, "the name must end in .vdb");
   expectMistake("vsv contact --vdb-voxel 1", 2, "--vdb-voxel needs a --vdb");
   expectMistake("vsv contact --vdb @/v.vdb --vdb-voxel nan", 2, "--vdb-voxel");
   const std::string small = "vsv contact --vsv-size 64x64x128 --size 16 ";

@@ -1,7 +1,6 @@
 #pragma once
-// Golden pictures, beside the tests in golden/. Blessed by tools/bless, in a commit of its own. On lavapipe
-// they are equal to the bit; another device may differ in half a percent of the pixels, at decisions within
-// its rounding.
+// Golden pictures, beside the tests in golden/. Blessed by tools/bless, in a commit of its own. On lavapipe they are
+// equal to the bit; another device may differ in half a percent of the pixels, at decisions within its rounding.
 
 #include "base/image.h"
 

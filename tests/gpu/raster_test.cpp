@@ -11,9 +11,8 @@ constexpr uint32_t kSize = 16;  // texels
 
 using Positions = std::vector<glm::vec4>;
 
-//  (-1,-1)-----+     The upper left half of the target: texel (x, y) is inside when x + y <= 15. The long
-//  edge runs
-//     |  in  ./      half a texel beyond the diagonal, so that no texel centre lies on it. Depth is
+//  (-1,-1)-----+     The upper left half of the target: texel (x, y) is inside when x + y <= 15. The long edge
+//     |  in  ./      runs half a texel beyond the diagonal, so that no texel centre lies on it. Depth is
 //     |    ./        z0 + dz * (x + 0.5), in window coordinates.
 //     +  ./
 Positions halfTriangle(float z0, float dz = 0.0f) {

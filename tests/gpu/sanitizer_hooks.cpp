@@ -13,8 +13,7 @@ extern "C" const char* __lsan_default_options() {
   return "print_suppressions=0";
 }
 
-// Libraries are never unloaded, else a leak's module would have no name to match. The Vulkan loader calls
-// this.
+// Libraries are never unloaded, else a leak's module would have no name to match. The Vulkan loader calls this.
 extern "C" int dlclose(void*) noexcept {
   return 0;
 }

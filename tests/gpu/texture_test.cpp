@@ -12,8 +12,7 @@ using namespace glsl;
 static_assert(sizeof(TextureLookup) == 32);
 static_assert(sizeof(TextureTaps) == 32);
 
-// Sizes that are powers of two and that are not, every wrap and filter, uvs far outside the image and on
-// seams.
+// Sizes that are powers of two and that are not, every wrap and filter, uvs far outside the image and on seams.
 std::vector<TextureLookup> randomLookups(size_t count) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> size(1, 300), mode(0, 2), filter(0, 1), kind(0, 3), step(-64, 64);

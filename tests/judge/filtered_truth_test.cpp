@@ -26,8 +26,7 @@ TEST_F(FilteredTruthTest, WithoutAFilterItIsTheTruth) {
   }
 }
 
-// Nothing casts a shadow into the corner: its walls meet, and past a crease the receiver's plane runs behind
-// a wall.
+// Nothing casts a shadow into the corner: its walls meet, and past a crease the receiver's plane runs behind a wall.
 TEST_F(FilteredTruthTest, AConcaveCreaseCastsNoShadow) {
   const LitMap corner(device(), "corner", spotParameterization(), 128, {.side = 37});
   const Receivers& receivers = corner.lit.receivers();

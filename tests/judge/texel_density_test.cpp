@@ -54,8 +54,7 @@ TEST(TexelDensity, IsTheNumberOfTexelsOnASquareMetre) {
     const auto density = texelDensity(fitted, middle, {0, 1, 0});
     ASSERT_TRUE(density.has_value());
     const double expected = *density * size * size;
-    // Texels that the square's edge cuts count whole: the square and half a texel on each side, and half of
-    // that.
+    // Texels that the square's edge cuts count whole: the square and half a texel on each side, and half of that.
     const double side = std::sqrt(expected);
     EXPECT_GT(expected, 50.0) << kWarp.text(warp);
     EXPECT_GT(static_cast<double>(met.size()), expected) << kWarp.text(warp);

@@ -1,4 +1,5 @@
-// Command lines that make a comparison, or a row of it, again: what is at its default is left out, what is not is there.
+// Command lines that make a comparison, or a row of it, again: what is at its default is left out, what is not is
+// there.
 #include "lab/compare/compare_command.h"
 
 #include "omni/cube_map.h"
@@ -110,8 +111,9 @@ TEST(RowCommand, AUsersBiasIsNamedWithItsFile) {
   Row row;
   row.map = "cube";
   row.bias = "mine";
-  EXPECT_EQ(rowCommand({.scene = "atrium"}, options, row),
-            "gnomon compare atrium --maps cube --bias-file 'my dir/mine.glsl' --biases mine --bias-file-knob 0.75");
+  EXPECT_EQ(
+      rowCommand({.scene = "atrium"}, options, row),
+      "gnomon compare atrium --maps cube --bias-file 'my dir/mine.glsl' --biases mine --bias-file-knob offset=0.75");
   row.bias = "none";
   EXPECT_EQ(rowCommand({.scene = "atrium"}, options, row), "gnomon compare atrium --maps cube --biases none");
 }

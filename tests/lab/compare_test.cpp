@@ -1,5 +1,4 @@
-// The main job end to end: rows that add up, results.json as docs/results.md has it, and the same bytes
-// twice.
+// The main job end to end: rows that add up, results.json as docs/results.md has it, and the same bytes twice.
 #include "lab/compare/compare.h"
 #include "base/file.h"
 #include "lab/compare/results.h"

@@ -31,7 +31,8 @@ class FogTest : public ::testing::Test {
   Session open(const SetupOptions& setup) { return {{.validation = true, .messageSink = &messages_}, setup}; }
 
   static FogOptions options() {
-    FogOptions options{.integrators = {Integrator::Runs, Integrator::Bits, Integrator::Popcount, Integrator::March},
+    FogOptions options{.integrators = {&findIntegrator("runs"), &findIntegrator("bits"), &findIntegrator("popcount"),
+                                       &findIntegrator("march")},
                        .steps = {8, 64},
                        .marchMap = parseMaps("cube").front(),
                        .mapSide = 512,
@@ -98,7 +99,7 @@ TEST_F(FogTest, BitsComeCloserThanAMarchAndFilesSaySo) {
 
   writeTextFile(how.outDir / "results.json", text);
   const std::string page = reportHtml(how.outDir);
-  for (const char* part : {"march 64", "On equal terms with a march", "The reference", "data:image/png"})
+  for (const char* part : {"march 64", "Compared with ray marching", "The reference", "data:image/png"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("cannot be read"), std::string::npos);
   EXPECT_EQ(page.find("{{"), std::string::npos);
@@ -217,7 +218,7 @@ TEST_F(FogTest, ADamagedReferenceIsTracedAnew) {
 TEST_F(FogTest, AMovingLightFlickersLessInTheReferenceThanInAMarch) {
   const Session session = open({.scene = "grate", .size = "48x36"});
   FogOptions how = options();
-  how.integrators = {Integrator::Runs, Integrator::March};
+  how.integrators = {&findIntegrator("runs"), &findIntegrator("march")};
   how.steps = {8};
   how.reference.bound = 0.01;
   how.motion = FogMotion{.frames = 3, .offsetW = {0.2f, 0.0f, 0.0f}};

@@ -100,7 +100,7 @@ TEST(ResultsFile, AMediumComesBackAsItWasWritten) {
   const TemporaryFolder folder;
   setenv("GNOMON_CACHE_DIR", (folder.path() / "cache").c_str(), 1);
   const Session session({.validation = true}, {.scene = "grate", .size = "48x36"});
-  FogOptions options{.integrators = {Integrator::Runs, Integrator::March},
+  FogOptions options{.integrators = {&findIntegrator("runs"), &findIntegrator("march")},
                      .steps = {8, 32},
                      .marchMap = parseMaps("cube").front(),
                      .mapSide = 64,

@@ -64,8 +64,7 @@ TEST(Unfold, TheCrossIsOfOnePiece) {
 TEST(Unfold, SolidAnglesOfACubeAreTheSphere) {
   const SolidAngles angles = *computeSolidAngles(cube(128));
   EXPECT_NEAR(angles.sum, 4.0 * std::numbers::pi, 1e-4);
-  // A texel at a corner is sqrt(3) as far and seen as obliquely: 3 sqrt(3) = 5.196 times smaller than at the
-  // middle.
+  // A texel at a corner is sqrt(3) as far and seen as obliquely: 3 sqrt(3) = 5.196 times smaller than at the middle.
   EXPECT_NEAR(angles.largest / angles.smallest, 3.0 * std::sqrt(3.0), 0.15);
 }
 

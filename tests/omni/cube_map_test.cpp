@@ -124,8 +124,7 @@ TEST(CubeMap, ATapBeyondAnyEdgeLandsOnTheTexelWhoseRayIsNearest) {
               best =
                   std::max(best, dot(wanted, mapTexelRay(fitted.map, other, mapTexelCenter(fitted.map, {x, y})).dir));
         const vec3 got = mapTexelRay(fitted.map, found.layer, mapTexelCenter(fitted.map, found.texel)).dir;
-        // Nearest up to ties: a direction near the border of two texels may fall to either by the square's
-        // shape.
+        // Nearest up to ties: a direction near the border of two texels may fall to either by the square's shape.
         ASSERT_LT(std::acos(std::min(1.0f, dot(wanted, got))), std::acos(std::min(1.0f, best)) * 1.2f + 1e-3f);
       }
     }

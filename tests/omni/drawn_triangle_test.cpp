@@ -1,6 +1,6 @@
 // What a fragment may store of itself (shaders/shadow/store_channels.glsl): which triangle of which instance it is of,
-// however the slice is drawn: by ranges of an indexed mesh, by pieces of triangles, by bounds. The second depth stands in
-// for a channel of numbers, in a copy of the shaders.
+// however the slice is drawn: by ranges of an indexed mesh, by pieces of triangles, by bounds. The second depth stands
+// in for a channel of numbers, in a copy of the shaders.
 #include "base/file.h"
 #include "gpu/shader_compiler.h"
 #include "omni/cube_map.h"

@@ -78,9 +78,8 @@ double rasterTolerance(const World& world, const FittedMap& fitted, int layer, g
   return ofInverse * m * glm::length(pointL) + 4.0 * kRound / slope + 8.0 * kRound * glm::length(pointL) / cosine;
 }
 
-// A paraboloid's texel meets the triangle itself: the corners and the texel's ray are rounded by a few 2^-24
-// of the largest distance, which the surface's slant turns into distance; the depth is stored to 2^-24 of its
-// range.
+// A paraboloid's texel meets the triangle itself: the corners and the texel's ray are rounded by a few 2^-24 of the
+// largest distance, which the surface's slant turns into distance; the depth is stored to 2^-24 of its range.
 double rayTolerance(const World& world, const FittedMap& fitted, const RayD& ray, const SurfaceHit& hit) {
   glm::dvec3 c[3];
   world.tracer->corners(hit.primitive, c);

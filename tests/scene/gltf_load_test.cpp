@@ -96,8 +96,7 @@ TEST(GltfVertices, normalizedUvsAndByteIndices) {
   GltfText text;
   const uint8_t uvs[] = {0, 255, 51, 102, 255, 0};
   const uint8_t indices[] = {0, 1, 2};
-  // Two bytes an element, tightly packed: glTF wants views of vertices aligned to 4, but the numbers are
-  // clear.
+  // Two bytes an element, tightly packed: glTF wants views of vertices aligned to 4, but the numbers are clear.
   const int uvAccessor = text.addAccessor(uvs, sizeof(uvs), 3, 5121, "VEC2", true);
   const int indexAccessor = text.addAccessor(indices, sizeof(indices), 3, 5121, "SCALAR", false);
   text.addNode(

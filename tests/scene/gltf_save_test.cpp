@@ -1,5 +1,4 @@
-// A scene that is saved and loaded again is equal: the same floats, to the last bit where the comparison says
-// ==.
+// A scene that is saved and loaded again is equal: the same floats, to the last bit where the comparison says ==.
 
 #include "base/error.h"
 #include "base/file.h"

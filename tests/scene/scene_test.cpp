@@ -71,8 +71,7 @@ TEST(Solid, doubleSidedMaterialMakesASheetOfAClosedMesh) {
   EXPECT_FALSE(isSolid(scene, mesh));
 }
 
-// Every shape of the builder that encloses something: closed, its normals outward, and of the volume it must
-// have.
+// Every shape of the builder that encloses something: closed, its normals outward, and of the volume it must have.
 struct Shape {
   const char* name;
   double volume;

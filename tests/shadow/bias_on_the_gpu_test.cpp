@@ -4,12 +4,12 @@
 // verdict turns from shadow to light, to neighbouring floats, and the GPU is asked for both: an ulp anywhere in a bias,
 // in a projection, a ray, a depth or a distance, is a wrong verdict.
 #include "lab/core/maps.h"
-#include "omni/cube_map.h"
-#include "vsv/volume_parameterization.h"
 #include "map_functions.glsl"
+#include "omni/cube_map.h"
 #include "plane_case.h"
 #include "seen_scene.h"
 #include "tests/run_kernel.h"
+#include "vsv/volume_parameterization.h"
 
 #include <bit>
 #include <cmath>

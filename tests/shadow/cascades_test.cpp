@@ -98,8 +98,7 @@ TEST(PlanarFit, EveryReceiverOfEverySceneIsCoveredWithinTheDepthRange) {
   }
 }
 
-// No caster between the light and a receiver lies before the near end: rays towards the light, whatever they
-// meet.
+// No caster between the light and a receiver lies before the near end: rays towards the light, whatever they meet.
 TEST(PlanarFit, NoCasterOfAReceiverIsLostBeforeTheNearEnd) {
   for (const char* scene : {"factory", "atrium", "contact"}) {
     for (const Parameterization* map : planarParameterizations()) {

@@ -88,8 +88,7 @@ TEST(NearestCasterDepth, ATriangleThatSurroundsTheLightIsCutAtTheLeastDepth) {
   mesh.indices = {0, 1, 2};
   scene.meshes.push_back(mesh);
   scene.instances.emplace_back();
-  // The light looks along -z from the origin; the triangle passes 0.1 above it and fills the upper half of
-  // the view.
+  // The light looks along -z from the origin; the triangle passes 0.1 above it and fills the upper half of the view.
   const AxisFrame frame = axisFrame({0, 0, 0}, {0, 0, -1}, true);
   const double depth =
       nearestCasterDepth(scene, frame, clipFromPlane({.lower = {-1, -1}, .upper = {1, 1}}), 1e-4, 100.0);

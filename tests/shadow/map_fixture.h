@@ -32,8 +32,7 @@ RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place);
 // A unit normal that faces the light at posL, at any angle to the ray up to `mostTanAngle`.
 glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth);
 
-// A scene drawn by its first camera and mapped from its first positional light (or directional, for that
-// kind).
+// A scene drawn by its first camera and mapped from its first positional light (or directional, for that kind).
 struct Rendered {
   Scene scene;
   std::unique_ptr<Tracer> tracer;

@@ -50,9 +50,8 @@ bool isNearEdge(const FittedMap& fitted, int x, int y, double reach, const std::
   return false;
 }
 
-// The rasterizer evaluates z = a + x dz/dx + y dz/dy in floats, and a and the products are as large as the
-// plane's change of depth across the whole map: each rounds by 2^-24 of that. 16 more are the transforms of
-// both sides.
+// The rasterizer evaluates z = a + x dz/dx + y dz/dy in floats, and a and the products are as large as the plane's
+// change of depth across the whole map: each rounds by 2^-24 of that. 16 more are the transforms of both sides.
 float rasterTolerance(const FittedMap& fitted, const SurfaceHit& hit, int x, int y) {
   const auto planeDepth = [&](int tx, int ty) {
     const RayD ray = texelRay(fitted, tx, ty);
@@ -139,8 +138,7 @@ TEST_F(MapImageTest, HolesOfMasksAreHolesOfTheMap) {
   EXPECT_LT(offAtRims, 5u);  // of the texels that a rim crosses 0.0055
 }
 
-// The paper's peel and the blend give the same two layers, to the bit, on every generated scene, culled and
-// not.
+// The paper's peel and the blend give the same two layers, to the bit, on every generated scene, culled and not.
 TEST_F(MapImageTest, BlendingAndPeelingGiveTheSameTwoLayers) {
   for (const GeneratedScene& generated : generatedScenes()) {
     for (const Parameterization* map : planarParameterizations()) {

@@ -1,6 +1,5 @@
 #pragma once
-// What a camera sees of a scene and what a light faces of that, traced without a GPU: what maps are fitted
-// to.
+// What a camera sees of a scene and what a light faces of that, traced without a GPU: what maps are fitted to.
 
 #include "planar/planar_map.h"
 #include "scene/gbuffer.h"

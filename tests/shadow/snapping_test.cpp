@@ -52,8 +52,7 @@ class SnappingTest : public gpu::GpuTest {
       const glsl::Ray b = glsl::mapTexelRay(fitted.map, 0, {0.5f, 0.5f + 1.0f / 256.0f});
       const float reach = fitted.zFar - fitted.zNear;
       const double texel = static_cast<double>(glm::length((a.origin + a.dir * reach) - (b.origin + b.dir * reach)));
-      // A step along the floor moves the window's two sides by at most that in each axis: at most one
-      // crossing each.
+      // A step along the floor moves the window's two sides by at most that in each axis: at most one crossing each.
       const size_t snapped = distinctImages(seen, map, {kWindowFit(fit)}, texel);
       EXPECT_LE(snapped, 3u) << map.name() << " " << kWindowFit.text(fit);
       if (fit != WindowFit::None) {  // the whole scene does not move with the camera

@@ -76,20 +76,20 @@ TEST_F(UserBiasTest, MistakesNameFileAndLine) {
   expectMistake("\n//! layers: 2\n",
                 "mine.glsl:2: a bias asks for channels, no longer for layers; for 1 write nothing");
   expectMistake("//! channels: depth, colour\n",
-                "mine.glsl:1: 'depth, colour' is no list of channels; choose from depth, second-depth, back-depth");
-  expectMistake("//! channels:\n", "'' is no list of channels");
-  expectMistake("//! knob: a feet 0 1 0.5\n", "'feet' is no unit");
-  expectMistake("//! knob: a metres 1 0 0.5\n", "mine.glsl:1: the knob is not understood");
-  expectMistake("//! knob: a metres 0 1\n", "the knob is not understood");
-  expectMistake("//! knob: 2a metres 0 1 0.5\n", "'2a' cannot name a knob");
-  expectMistake("//! knob: a=b metres 0 1 0.5\n", "'a=b' cannot name a knob");
-  expectMistake("//! knob: a-b one 0 1 0\n//! knob: a_b one 0 1 0\n", "mine.glsl:2: two knobs are named 'a_b'");
+                "mine.glsl:1: 'depth, colour' is not a list of channels; choose from depth, second-depth, back-depth");
+  expectMistake("//! channels:\n", "'' is not a list of channels");
+  expectMistake("//! knob: a feet 0 1 0.5\n", "'feet' is not a unit");
+  expectMistake("//! knob: a metres 1 0 0.5\n", "mine.glsl:1: the parameter is not understood");
+  expectMistake("//! knob: a metres 0 1\n", "the parameter is not understood");
+  expectMistake("//! knob: 2a metres 0 1 0.5\n", "'2a' cannot name a parameter");
+  expectMistake("//! knob: a=b metres 0 1 0.5\n", "'a=b' cannot name a parameter");
+  expectMistake("//! knob: a-b one 0 1 0\n//! knob: a_b one 0 1 0\n", "mine.glsl:2: two parameters are named 'a_b'");
   const std::string four =
       "//! knob: a one 0 1 0\n//! knob: b one 0 1 0\n//! knob: c one 0 1 0\n//! knob: d one 0 1 0\n";
   EXPECT_EQ(load(four)->method.knobs.size(), 4u);
-  expectMistake(four + "//! knob: e one 0 1 0\n", "mine.glsl:5: 'e' is one knob too many; a bias has at most 4");
+  expectMistake(four + "//! knob: e one 0 1 0\n", "mine.glsl:5: 'e' is one parameter too many; a bias has at most 4");
   expectMistake("//! name: constant\n", "built-in bias");
-  expectMistake("//! name: ../x\n", "cannot name files");
+  expectMistake("//! name: ../x\n", "cannot be part of a file name");
   EXPECT_THROW(loadUserBias(folder_.path() / "absent.glsl"), WorldError);
 }
 

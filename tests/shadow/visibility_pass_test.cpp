@@ -1,5 +1,4 @@
-// The visibility shader end to end, against exact rays: scenes with a known answer, and one golden picture a
-// method.
+// The visibility shader end to end, against exact rays: scenes with a known answer, and one golden picture a method.
 #include "map_fixture.h"
 #include "tests/golden_picture.h"
 #include "tests/judge/lit_map.h"

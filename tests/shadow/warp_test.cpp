@@ -189,7 +189,7 @@ TEST(Warp, IsNotAppliedWhereTheLightShinesAlongTheViewAndSaysSo) {
   const FittedMap plain = seen.fit(directionalParameterization(), {kSnap(false)});
   for (const Warp warp : {Warp::Lispsm, Warp::Tsm}) {
     const FittedMap fitted = seen.fit(directionalParameterization(), {kSnap(false), kWarp(warp)});
-    EXPECT_NE(fitted.note.find("no warp"), std::string::npos) << fitted.note;
+    EXPECT_NE(fitted.note.find("not applied"), std::string::npos) << fitted.note;
     EXPECT_EQ(uvOf(fitted, seen.scored.front()), uvOf(plain, seen.scored.front()));
   }
 }
@@ -211,12 +211,11 @@ TEST(Warp, OfALightAmongWhatIsSeenCoversAllOfItAndSaysWhatItCost) {
     }
   }
   // PSM's camera is moved back from one of the four lights and warps nothing for another; TSM is weakened for one.
-  for (const char* note : {"psm: the virtual camera stands", "psm: the light stands among", "tsm: weakened"})
+  for (const char* note : {"psm: the virtual camera is", "psm: not applied, the light is among", "tsm: weakened"})
     EXPECT_NE(notes.find(note), std::string::npos) << note << " is not among " << notes;
 }
 
-// However the sun stands, W stays within what kMostWarp allows, and no layer is mirrored: culling relies on
-// it.
+// However the sun stands, W stays within what kMostWarp allows, and no layer is mirrored: culling relies on it.
 TEST(Warp, KeepsItsRatioAndItsHandAtEveryAngle) {
   for (const double elevation : {8.0, 30.0, 60.0, 90.0}) {
     for (int azimuth = 0; azimuth < 360; azimuth += 30) {

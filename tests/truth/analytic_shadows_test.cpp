@@ -27,8 +27,7 @@ void PrintTo(const Tilt& tilt, std::ostream* out) {
 
 class LonePlane : public testing::TestWithParam<Tilt> {
  protected:
-  // The plane through the origin is tilted about an axis that is aligned with nothing; the light hangs 6 m
-  // above it.
+  // The plane through the origin is tilted about an axis that is aligned with nothing; the light hangs 6 m above it.
   Shot shoot() const {
     Scene scene = emptyScene();
     addFloor(scene, 0.0, 60.0);
@@ -60,8 +59,7 @@ TEST_P(LonePlane, NeverHasAnEdgeOrALeakAndIsAllLit) {
   }
 }
 
-// The plane's depth grows in one direction across a texel; the half beyond the centre is deeper than what is
-// stored.
+// The plane's depth grows in one direction across a texel; the half beyond the centre is deeper than what is stored.
 TEST_P(LonePlane, WithoutBiasHasAcneOnHalfOfItsPixels) {
   const Shot shot = shoot();
   const LabelImage image = labelShot(shot, map(shot), glsl::kBiasNone, defaultBias(glsl::kBiasNone));
@@ -107,8 +105,7 @@ TEST(Detachment, LeakHasTheAreaThatTheConstantBiasOpens) {
   params.knobs[glsl::kConstantOffset] = static_cast<float>(b);
   const LabelImage image = labelShot(shot, map, glsl::kBiasConstant, params);
 
-  // Square metres of floor a pixel covers: its solid angle, times distance squared, over the cosine at the
-  // floor.
+  // Square metres of floor a pixel covers: its solid angle, times distance squared, over the cosine at the floor.
   const double pixelArea =
       4.0 * static_cast<double>(camera.tanHalfX) * static_cast<double>(camera.tanHalfY) / (400.0 * 400.0);
   double area = 0.0;
@@ -143,8 +140,7 @@ TEST(Detachment, AdaptiveLeaksNothingAtABoxOnAFloor) {
   const ReferenceMap map = traceReferenceMap(
       *shot.tracer, light, {.targetW = {0.5, 0, 0}, .halfExtent = 4.0, .side = 512, .near = 0.5, .far = 30.0});
   const LabelImage image = labelShot(shot, map, glsl::kBiasAdaptive, defaultBias(glsl::kBiasAdaptive));
-  // Adaptive's own epsilon, sceneScale * K = 3.4 mm along the ray, opens a strip narrower than a pixel (2.2
-  // cm).
+  // Adaptive's own epsilon, sceneScale * K = 3.4 mm along the ray, opens a strip narrower than a pixel (2.2 cm).
   EXPECT_LE(image.count(Label::Leak), 300u) << showCounts(image);
   EXPECT_GT(image.count(Label::Agree), shot.receivers.scored * 9 / 10);
 }

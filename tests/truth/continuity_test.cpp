@@ -138,8 +138,7 @@ TEST(Continuity, ArcPastTheTipOfAPyramidIsOnePiece) {
   }
 }
 
-// The wall of a floating box, seen steeply, then the floor: the wall's plane would reach the floor, the wall
-// does not.
+// The wall of a floating box, seen steeply, then the floor: the wall's plane would reach the floor, the wall does not.
 TEST(Continuity, WallOfAFloatingBoxIsTwoPiecesFromTheFloor) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 10.0);

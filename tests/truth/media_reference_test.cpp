@@ -112,8 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Lights, Unshadowed,
                          testing::Values(glm::dvec3(0.33, 1.2, -1.0), glm::dvec3(5, 2, 3), glm::dvec3(0.1, 1, 9),
                                          glm::dvec3(0.02, 1.03, 3.9)));
 
-// With hardly any extinction the integral of dphi / aside is the angle at the light over the distance of the
-// ray.
+// With hardly any extinction the integral of dphi / aside is the angle at the light over the distance of the ray.
 TEST(MediaReference, AThinMediumGivesTheAngleAtTheLight) {
   Setting setting;
   setting.medium = {.sigmaS = glm::dvec3(1e-9), .g = 0.0, .reach = 7.0};
@@ -132,8 +131,7 @@ TEST(MediaReference, AThinMediumGivesTheAngleAtTheLight) {
   }
 }
 
-// A half plane at the height 1 from x = 0 on: below it all is dark where x > 0, seen from a light above x =
-// 0.
+// A half plane at the height 1 from x = 0 on: below it all is dark where x > 0, seen from a light above x = 0.
 TEST(MediaReference, BehindAHalfPlaneTheLitStretchIsKnown) {
   Setting setting;
   addQuad(setting.scene, {0, 1, -500}, {1000, 1, -500}, {1000, 1, 500}, {0, 1, 500});

@@ -93,8 +93,7 @@ TEST(Receivers, FaceAwayFromALightInOrBehindTheirPlane) {
   EXPECT_EQ(level.receivers.facingAway, 1024u);
 }
 
-// A pixel whose centre the rasterizer gave to a triangle that the ray passes beside gets that triangle's
-// nearest point.
+// A pixel whose centre the rasterizer gave to a triangle that the ray passes beside gets that triangle's nearest point.
 TEST(Receivers, AreClampedToTheTriangleTheGBufferNames) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 0.5);
@@ -109,9 +108,8 @@ TEST(Receivers, AreClampedToTheTriangleTheGBufferNames) {
   }
 }
 
-// shared/geometry.glsl's point, as the shaders compute it in float: how far off the plane, and along it, it
-// strays from the double one. Along the plane costs a fraction of a texel; off the plane is what a bias has
-// to cover.
+// shared/geometry.glsl's point, as the shaders compute it in float: how far off the plane, and along it, it strays from
+// the double one. Along the plane costs a fraction of a texel; off the plane is what a bias has to cover.
 TEST(SurfacePoint, InFloatStaysWithinUlpsOfThePlane) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -290,8 +290,7 @@ TEST(Instances, SqueezedFlatStillBlock) {
   EXPECT_TRUE(tracer.occluded({{2.4, 3, 0.1}, {0, -1, 0}}, 3.0, {0, 0}, {0, 1, 0}, 1e-5));
 }
 
-// The quad's border is at x = 0; a float ray that started at the light, a thousand kilometres off, would
-// stray by 3 cm.
+// The quad's border is at x = 0; a float ray that started at the light, a thousand kilometres off, would stray by 3 cm.
 TEST(FarLight, StillSeesTheSceneInFullPrecision) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 1.0);

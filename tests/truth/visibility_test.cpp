@@ -36,8 +36,7 @@ TEST(LightRays, OfADirectionalLightStartOutsideTheBounds) {
   }
 }
 
-// A unit box's shadow on the floor from a light straight above its middle, at the height 3: a square of side
-// 3/2.
+// A unit box's shadow on the floor from a light straight above its middle, at the height 3: a square of side 3/2.
 TEST(Truth, ShadowOfABoxHasItsAnalyticOutline) {
   Scene scene = emptyScene();
   const int floor = addFloor(scene, 0.0, 10.0);
@@ -58,8 +57,7 @@ TEST(Truth, ShadowOfABoxHasItsAnalyticOutline) {
 
 class Contact : public testing::TestWithParam<double> {};
 
-// Boxes stand on the floor, turned and moved so that their corners are rounded; the camera looks at the foot
-// of one.
+// Boxes stand on the floor, turned and moved so that their corners are rounded; the camera looks at the foot of one.
 TEST_P(Contact, TruthIsStableAtTheFootOfABox) {
   Scene scene = emptyScene();
   addFloor(scene, 0.0, 4.0);

@@ -259,10 +259,10 @@ TEST_F(DensityOnTheGpu, AConstantGridIsTheHomogeneousMedium) {
     MediaWorld homogeneous(device(), setup);
     setup.density = path("ones.vdb");
     MediaWorld dense(device(), setup);
-    const MediaMethod march{Integrator::March, 256};
+    const MediaMethod march = mediaMethod("march", 256);
     const double samples = relativeRmse(dense.scattered(march), homogeneous.scattered(march));
     const double runs =
-        relativeRmse(dense.scattered({Integrator::Runs, 1024}), homogeneous.scattered({Integrator::Runs}));
+        relativeRmse(dense.scattered(mediaMethod("runs", 1024)), homogeneous.scattered(mediaMethod("runs")));
     EXPECT_LT(samples, 1e-3);
     EXPECT_LT(runs, 0.05);
   }
@@ -304,12 +304,12 @@ TEST_F(DensityOnTheGpu, TheTableOfDepthsToTheLightIsGoodToAPercentOfTheMean) {
     setup.density = path("t.vdb");
     setup.pictureSide = 24;  // each sample of each pixel has a way to the light of its own
     MediaWorld world(device(), setup);
-    const std::vector<glm::vec3> measured = world.scattered({Integrator::Runs, 64});
+    const std::vector<glm::vec3> measured = world.scattered(mediaMethod("runs", 64));
     std::vector<glm::vec3> expected;
     for (size_t i = 0; i + 1 < world.endsW.size(); ++i) expected.emplace_back(marched(world, world.endsW[i], 64));
     const double error = relativeRmse(measured, expected);
     EXPECT_LT(error, 0.01);
-    EXPECT_LT(relativeRmse(world.scattered({Integrator::March, 64}), expected), 0.01);
+    EXPECT_LT(relativeRmse(world.scattered(mediaMethod("march", 64)), expected), 0.01);
   }
 }
 
@@ -333,7 +333,7 @@ TEST_F(DensityOnTheGpu, SurfacesAreAttenuatedByWhatTheTablesSay) {
     visibility.record(commands, world.buffers, world.gbuffer, *world.cube, findBias("adaptive"), false);
     world.pass.recordTable(commands, *world.volume, setup.light);
     commands.barrier("visibility and table are written -> surfaces and pixels read them");
-    world.pass.record(commands, world.buffers, world.gbuffer, *world.volume, setup.light, {Integrator::Runs, 128},
+    world.pass.record(commands, world.buffers, world.gbuffer, *world.volume, setup.light, mediaMethod("runs", 128),
                       false);
     commands.barrier("depths to the eye are written -> surfaces read them");
     world.pass.recordSurfaces(commands, world.buffers, world.gbuffer, setup.light, visibility.uniforms(),

@@ -92,7 +92,7 @@ void MediaWorld::removeShadows() {
 
 std::vector<glm::vec3> MediaWorld::scattered(const MediaMethod& method, bool ofParaboloid) {
   const MapImage& map = ofParaboloid ? *paraboloid : *cube;
-  const Occluders& occluders = method.integrator == Integrator::March ? static_cast<const Occluders&>(map) : *volume;
+  const Occluders& occluders = method.readsDepths() ? static_cast<const Occluders&>(map) : *volume;
   gpu::Commands commands(device_, "media");
   pass.recordTable(commands, occluders, setup.light);
   commands.barrier("the running integral is written -> pixels read it");

@@ -14,7 +14,7 @@ using test::MediaSetup;
 using test::MediaWorld;
 using test::relativeRmse;
 
-const MediaMethod kRuns{Integrator::Runs}, kBits{Integrator::Bits}, kPopcount{Integrator::Popcount};
+const MediaMethod kRuns = mediaMethod("runs"), kBits = mediaMethod("bits"), kPopcount = mediaMethod("popcount");
 
 class MediaPassTest : public gpu::GpuTest {};
 
@@ -57,11 +57,11 @@ TEST_F(MediaPassTest, WithNothingInTheWayAllWaysGiveTheClosedForm) {
     const std::vector<glm::vec3> expected = unshadowedPicture(world);
     for (const MediaMethod& method : {kRuns, kBits, kPopcount}) {
       const std::vector<glm::vec3> measured = world.scattered(method);
-      EXPECT_LT(worstRelative(measured, expected), 1e-3) << place.name << ", " << integratorName(method.integrator);
-      EXPECT_LT(relativeRmse(measured, expected), 2e-4) << place.name << ", " << integratorName(method.integrator);
+      EXPECT_LT(worstRelative(measured, expected), 1e-3) << place.name << ", " << method.integrator->name;
+      EXPECT_LT(relativeRmse(measured, expected), 2e-4) << place.name << ", " << method.integrator->name;
     }
     for (const bool paraboloid : {false, true})
-      EXPECT_LT(relativeRmse(world.scattered({Integrator::March, 512}, paraboloid), expected), place.march512)
+      EXPECT_LT(relativeRmse(world.scattered(mediaMethod("march", 512), paraboloid), expected), place.march512)
           << place.name << (paraboloid ? ", paraboloid" : ", cube");
   }
 }
@@ -139,7 +139,7 @@ TEST_F(MediaPassTest, AConeLightsWhatIsWithin) {
       EXPECT_LT(relativeRmse(world.scattered(kBits), expected), 2e-3) << place.name;
       EXPECT_LT(relativeRmse(world.scattered(kPopcount), expected), 0.05) << place.name;  // counts whole bins
       if (place.march512 < 1e-3) {  // elsewhere the cone's edge is lost between samples near the light
-        EXPECT_LT(relativeRmse(world.scattered({Integrator::March, 512}), expected), 0.03) << place.name;
+        EXPECT_LT(relativeRmse(world.scattered(mediaMethod("march", 512)), expected), 0.03) << place.name;
         ++marched;
       }
     }
@@ -180,7 +180,7 @@ TEST_F(MediaPassTest, AHalfSpaceInShadowIsDarkAndTheOtherIsLit) {
     EXPECT_LT(relativeRmse(measured, expected), 0.01);
     EXPECT_LT(worstRelative(measured, expected), 0.02);
   }
-  EXPECT_LT(relativeRmse(world.scattered({Integrator::March, 1024}), expected), 0.01);
+  EXPECT_LT(relativeRmse(world.scattered(mediaMethod("march", 1024)), expected), 0.01);
 }
 
 // Each run is the sum of its bits: they differ by the rounding of up to 512 sums, each by 2^-24 of the
@@ -207,7 +207,7 @@ TEST_F(MediaPassTest, RunsAreBitsUpToRounding) {
 TEST_F(MediaPassTest, EnergyIsNeverNegativeAndNeverAboveTheUnshadowed) {
   for (const char* scene : {"grate", "atrium"}) {
     MediaWorld world(device(), test::mediaSetup(scene));
-    const std::vector<MediaMethod> methods = {kRuns, kBits, kPopcount, {Integrator::March, 64}};
+    const std::vector<MediaMethod> methods = {kRuns, kBits, kPopcount, mediaMethod("march", 64)};
     std::vector<std::vector<glm::vec3>> shadowed, lit;
     for (const MediaMethod& method : methods) shadowed.push_back(world.scattered(method));
     world.removeShadows();
@@ -217,7 +217,7 @@ TEST_F(MediaPassTest, EnergyIsNeverNegativeAndNeverAboveTheUnshadowed) {
       for (size_t i = 0; i < lit[m].size(); ++i) {
         for (int c = 0; c < 3; ++c) {
           ASSERT_GE(shadowed[m][i][c], 0.0f);
-          ASSERT_LE(shadowed[m][i][c], lit[m][i][c] * (1.0f + 1e-5f)) << integratorName(methods[m].integrator);
+          ASSERT_LE(shadowed[m][i][c], lit[m][i][c] * (1.0f + 1e-5f)) << methods[m].integrator->name;
         }
         darker += shadowed[m][i].x < 0.95f * lit[m][i].x ? 1 : 0;
       }
@@ -235,8 +235,8 @@ TEST_F(MediaPassTest, AMarchThroughTheMapComesNearTheBits) {
   MediaWorld world(device(), setup);
   const std::vector<glm::vec3> runs = world.scattered(kRuns);
   for (const bool paraboloid : {false, true}) {
-    const double coarse = relativeRmse(world.scattered({Integrator::March, 32}, paraboloid), runs);
-    const double fine = relativeRmse(world.scattered({Integrator::March, 512}, paraboloid), runs);
+    const double coarse = relativeRmse(world.scattered(mediaMethod("march", 32), paraboloid), runs);
+    const double fine = relativeRmse(world.scattered(mediaMethod("march", 512), paraboloid), runs);
     EXPECT_LT(fine, 0.5 * coarse);
     EXPECT_LT(fine, 0.05);
   }
@@ -319,10 +319,20 @@ TEST(MediaLights, PointsAndSpotsAreTakenAndSunsAreNot) {
   EXPECT_EQ(mediaLight(light).coneCos, -1.0);
 }
 
+TEST(Integrators, HaveOneBaselineAndOneThatStandsForThoseThatReadTheSame) {
+  EXPECT_EQ(std::ranges::count_if(integrators(), &Integrator::isBaseline), 1);
+  EXPECT_STREQ(baselineIntegrator().name, "march");
+  for (const Integrator::Reads reads : {Integrator::Reads::Bits, Integrator::Reads::Depths})
+    EXPECT_EQ(std::ranges::count_if(integrators(),
+                                    [&](const Integrator& i) { return i.reads == reads && i.standsInDensity; }),
+              1);
+  EXPECT_STREQ(integratorInDensity(findIntegrator("popcount")).name, "bits");
+  EXPECT_STREQ(integratorInDensity(findIntegrator("march")).name, "march");
+}
+
 TEST(Integrators, HaveNames) {
-  for (const char* name : {"runs", "bits", "popcount", "march"})
-    EXPECT_STREQ(integratorName(parseIntegrator(name)), name);
-  EXPECT_THROW(parseIntegrator("walk"), UsageError);
+  for (const char* name : {"runs", "bits", "popcount", "march"}) EXPECT_STREQ(findIntegrator(name).name, name);
+  EXPECT_THROW(findIntegrator("walk"), UsageError);
 }
 
 }  // namespace

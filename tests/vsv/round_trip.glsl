@@ -1,5 +1,5 @@
-// What the tests of the epipolar map evaluate on both sides. The map itself is the buffer that shared/map.glsl declares; in C++ it
-// is the argument.
+// What the tests of the epipolar map evaluate on both sides. The map itself is the buffer that shared/map.glsl
+// declares; in C++ it is the argument.
 #ifndef GNOMON_TEST_ROUND_TRIP_GLSL
 #define GNOMON_TEST_ROUND_TRIP_GLSL
 

@@ -1,5 +1,4 @@
-// A volume that the GPU built is the one that its own source implies, and a defect at any of its stages
-// shows.
+// A volume that the GPU built is the one that its own source implies, and a defect at any of its stages shows.
 #include "vsv/check/source_check.h"
 #include "vsv_fixture.h"
 

@@ -114,8 +114,7 @@ TEST(VolumeFitTest, TheRangesAreTight) {
       stepsLeast = std::min(stepsLeast, glsl::thetaSteps(grid, at.theta));
       stepsMost = std::max(stepsMost, glsl::thetaSteps(grid, at.theta));
     }
-    // The border is sampled every 2.5% of a picture of about an eighth of a turn; the axis may lie between
-    // samples.
+    // The border is sampled every 2.5% of a picture of about an eighth of a turn; the axis may lie between samples.
     const float sampled = 0.03f;
     EXPECT_GT(grid.alphaLower + 3.0f * grid.alphaStep + sampled, alphaLeast) << i;
     EXPECT_LT(glsl::alphaUpper(grid) - 3.0f * grid.alphaStep - sampled, alphaMost) << i;

@@ -1,5 +1,4 @@
-// The sparse grid holds the dense volume's very voxels, whatever their pattern, in less memory where it is
-// smooth.
+// The sparse grid holds the dense volume's very voxels, whatever their pattern, in less memory where it is smooth.
 #include "vsv/check/volume_grid.h"
 #include "volumes_by_hand.h"
 

@@ -97,8 +97,7 @@ TEST_F(VolumeTest, BitsOfASceneObeyTheRuleAndNeverFallAlongAlpha) {
   }
 }
 
-// The occluder of a column is the first hit of its own ray; at an edge of what is seen it may be the other
-// side's.
+// The occluder of a column is the first hit of its own ray; at an edge of what is seen it may be the other side's.
 TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
   for (const char* scene : {"atrium", "tilted-planes", "sheets"}) {
     for (const VolumeFit fit : {VolumeFit::Frustum, VolumeFit::Full}) {

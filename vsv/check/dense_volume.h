@@ -1,6 +1,6 @@
 #pragma once
-// Shadow volumes in host memory, in two forms that the CPU's check compares: every voxel as a bit, and every
-// column as the one place where its shadow begins (shaders/shared/epipolar.glsl has the grid and the rule).
+// Shadow volumes in host memory, in the two forms that the CPU's check compares: one bit a voxel, and one shadow
+// boundary a column (shaders/shared/epipolar.glsl has the grid and the occupancy rule).
 
 #include "shared/epipolar.glsl"
 

@@ -1,6 +1,6 @@
 #pragma once
-// The exact shadow volume: what every column's own ray hits first, traced in double precision, and how far,
-// and why, another volume's boundaries lie off. Frame: L of the volume (LightFrame), metres.
+// The exact shadow volume: the first hit of every column's ray, in double precision; and by how much, and why, another
+// volume's boundaries differ from it. Frame: L of the volume (LightFrame), metres.
 
 #include "truth/tracer.h"
 #include "vsv/check/dense_volume.h"

@@ -15,9 +15,8 @@ namespace {
 
 using Range = tbb::blocked_range<int>;
 
-// By how much two processors' directions of one column may differ along an axis of the source's frame: 2.5
-// ulps of sin and cos (volume_check.cpp), and two rotations of three products and two sums each, 2 ulps
-// apiece.
+// By how much two processors' directions of one column may differ along an axis of the source's frame: 2.5 ulps of sin
+// and cos (volume_check.cpp), and two rotations of three products and two sums each, 2 ulps apiece.
 constexpr float kDirectionNoise = 6.5f * 0x1p-23f;
 
 float phiCenter(const glsl::EpipolarGrid& grid, int phi) {

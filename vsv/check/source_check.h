@@ -1,7 +1,7 @@
 #pragma once
-// A GPU's shadow volume against what its source implies, end to end: the source's depths are downloaded, each
-// column's occluder is found again on the CPU (shaders/shared/volume_source.glsl), and the bits that the
-// occupancy rule makes of those are compared with the GPU's.
+// Compares a GPU's shadow volume with a CPU rebuild from the same depth map: the map is downloaded, each column's
+// occluder is found again (shaders/shared/volume_source.glsl), the occupancy rule is applied, and the bits are
+// compared.
 
 #include "vsv/check/exact_volume.h"
 #include "vsv/check/volume_check.h"

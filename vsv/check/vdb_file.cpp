@@ -158,8 +158,8 @@ VdbSummary writeVdb(const std::filesystem::path& path, const VolumeGrid& mask, c
       options.voxelMetres > 0.0 ? options.voxelMetres : meanVoxel(volume.grid, options.frame, options.boundsW);
   const double count = sizeOf(options.boundsW, voxel);
   if (!(count <= kMostDensityVoxels))
-    throw UsageError(fmt::format("--vdb-voxel {}: {:.3g} voxels in the scene's bounds; take {:.3g} or more", voxel,
-                                 count, voxel * std::cbrt(count / kMostDensityVoxels) * 1.01));
+    throw UsageError(fmt::format("--vdb-voxel {}: would make {:.3g} voxels in the scene's bounds; use {:.3g} or more",
+                                 voxel, count, voxel * std::cbrt(count / kMostDensityVoxels) * 1.01));
   VdbSummary summary{.voxelMetres = voxel};
   const openvdb::FloatGrid::Ptr density = densityGrid(volume, options.frame, boxOf(options.boundsW, voxel), voxel);
   summary.densityVoxels = density->activeVoxelCount();

@@ -1,9 +1,9 @@
 #pragma once
-// A shadow volume as a .vdb file for the usual tools, two grids:
+// Exports a shadow volume as a .vdb file with two grids:
 //
 //   density          float fog volume in world space, 1 where the light does not reach, voxels of equal size,
 //                    world units metres
-//   shadow_epipolar  mask, the very voxels: index (alpha, theta, phi), world units radians
+//   shadow_epipolar  mask, the voxels themselves: index (alpha, theta, phi), world units radians
 //
 // Both, and the file, carry what made them: gnomon_light and gnomon_eye (metres), gnomon_lower, gnomon_step
 // (radians) and gnomon_counts of alpha, theta, phi, gnomon_source, gnomon_command.

@@ -1,9 +1,9 @@
 #pragma once
-// Whether a GPU's shadow volume is the one that its source implies: computed again on the CPU, from the
-// occluders or from one step before, by the same shared mathematics, and compared bit for bit.
+// Bit-for-bit comparison of a GPU's shadow volume with one computed on the CPU by the same shared functions, from the
+// GPU's occluders or from the map they came from.
 //
-// What separates the two is the transcendental functions alone (STYLE's list of what is exact). A voxel whose
-// centre lies nearer the occluder than those can move it is counted apart; any other difference is a defect.
+// The two can differ only by the rounding of transcendental functions (docs/shared_glsl.md). A voxel whose centre is
+// nearer to the occluder than that is counted separately; any other difference is a bug.
 
 #include "vsv/check/dense_volume.h"
 

@@ -40,14 +40,13 @@ openvdb::GridBase::Ptr readNamed(openvdb::io::File& file, const Named& named) {
   std::string name = named.grid;
   if (name.empty()) {
     auto it = file.beginName();
-    if (it == file.endName()) throw fileError(named.path, "there is no grid in it", "take another file");
+    if (it == file.endName()) throw fileError(named.path, "it has no grid", "use another file");
     name = it.gridName();
     if (++it != file.endName())
-      throw fileError(named.path, "there are several grids in it",
-                      fmt::format("add one to the name, as in {}:{}; there are {}", named.path, name, namesIn(file)));
+      throw fileError(named.path, "it has several grids",
+                      fmt::format("name one, as in {}:{}; it has {}", named.path, name, namesIn(file)));
   } else if (!file.hasGrid(name)) {
-    throw fileError(named.path, fmt::format("there is no grid '{}' in it", name),
-                    fmt::format("choose of {}", namesIn(file)));
+    throw fileError(named.path, fmt::format("it has no grid '{}'", name), fmt::format("choose from {}", namesIn(file)));
   }
   return file.readGrid(name);
 }
@@ -64,7 +63,7 @@ openvdb::GridBase::Ptr readGrid(const Named& named) {
     throw;
   } catch (const std::exception& error) {  // OpenVDB's own, and what a broken file makes the library throw
     throw fileError(named.path, fmt::format("it cannot be read as OpenVDB ({})", openVdbMessage(error)),
-                    "take a .vdb file that is whole");
+                    "use a complete .vdb file");
   }
 }
 
@@ -76,13 +75,13 @@ openvdb::FloatGrid::Ptr checkedGrid(const Named& named) {
   const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(base);
   if (!grid) throw complain(fmt::format("holds {}", base->valueType()), "a density is a grid of floats");
   if (grid->getGridClass() == openvdb::GRID_LEVEL_SET)
-    throw complain("is a level set", "make a fog volume of it first");
+    throw complain("is a level set", "convert it to a fog volume first");
   if (!grid->transform().isLinear())
     throw complain("has a transform that is not affine", "resample it to equal voxels");
-  if (grid->activeVoxelCount() == 0) throw complain("is empty", "take another grid");
-  if (!std::isfinite(grid->background())) throw complain("has values that are not finite", "mend the file");
+  if (grid->activeVoxelCount() == 0) throw complain("is empty", "use another grid");
+  if (!std::isfinite(grid->background())) throw complain("has values that are not finite", "repair the file");
   for (auto it = grid->cbeginValueAll(); it; ++it)
-    if (!std::isfinite(*it)) throw complain("has values that are not finite", "mend the file");
+    if (!std::isfinite(*it)) throw complain("has values that are not finite", "repair the file");
   return grid;
 }
 
@@ -122,8 +121,8 @@ DensityGrid::DensityGrid(const std::string& fileAndGrid, const DensityPlacement&
     impl_->worldFromIndex[axis] = placement.scale * (fileFromIndex(unit) - origin);
   }
   if (const double det = glm::determinant(impl_->worldFromIndex); !(std::abs(det) > 0.0) || !std::isfinite(det))
-    throw fileError(named.path, fmt::format("its grid '{}' has voxels without volume", gridName_),
-                    "mend its transform");
+    throw fileError(named.path, fmt::format("its grid '{}' has voxels of zero volume", gridName_),
+                    "repair its transform");
   impl_->indexFromWorld = glm::inverse(impl_->worldFromIndex);
   impl_->centerW = placement.centerW.value_or(fileFromIndex(impl_->centerI));
   place_ = {.centerW = glm::vec3(impl_->centerW),

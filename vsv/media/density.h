@@ -1,6 +1,6 @@
 #pragma once
-// The density of a heterogeneous medium: a float grid of an OpenVDB file, placed in the world, for the CPU by
-// its own values and for the GPU as a NanoVDB grid. OpenVDB's and NanoVDB's headers stay in the .cpp files.
+// The density of a heterogeneous medium: a float grid from an OpenVDB file, placed in the world; on the CPU as it is,
+// on the GPU as a NanoVDB grid. OpenVDB's and NanoVDB's headers stay in the .cpp files.
 //
 // A point's density is the grid's value there, trilinear, and 0 where that is negative or outside of the
 // active voxels' box (grown by one voxel, over which the values fall to the background).

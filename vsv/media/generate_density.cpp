@@ -113,7 +113,7 @@ DensityAt densityNamed(const std::string& name, uint32_t seed) {
     };
   std::vector<const char*> names;
   for (const GeneratedDensity& density : generatedDensities()) names.push_back(density.name);
-  throw UsageError(fmt::format("--density {}: choose of {}", name, fmt::join(names, ", ")));
+  throw UsageError(fmt::format("--density {}: choose from {}", name, fmt::join(names, ", ")));
 }
 
 std::unique_ptr<Leaf> leafOf(const openvdb::Coord& origin, const std::function<double(const openvdb::Coord&)>& at) {
@@ -131,9 +131,9 @@ std::unique_ptr<Leaf> leafOf(const openvdb::Coord& origin, const std::function<d
 
 const std::vector<GeneratedDensity>& generatedDensities() {
   static const std::vector<GeneratedDensity> densities = {
-      {"puff", "a smooth ball of smoke in the middle: its integral is known"},
-      {"fog", "fog on the ground in sheets, thinner upwards"},
-      {"turbulence", "smoke of five octaves of seeded noise (--seed): detail at every size"},
+      {"puff", "a smooth ball of smoke in the middle, with a known integral"},
+      {"fog", "layered ground fog, thinner upwards"},
+      {"turbulence", "smoke from five octaves of seeded noise (--seed), detail at every scale"},
   };
   return densities;
 }
@@ -143,7 +143,7 @@ DensitySummary writeGeneratedDensity(const std::string& name, const Bounds& boun
   const DensityAt at = densityNamed(name, seed);
   const glm::dvec3 lower(boundsW.lower), diagonal = glm::dvec3(boundsW.upper) - lower;
   const double longest = std::max({diagonal.x, diagonal.y, diagonal.z});
-  if (!(longest > 0.0)) throw WorldError("--density: the scene has no extent to fill; take another with --for");
+  if (!(longest > 0.0)) throw WorldError("--density: the scene's bounds are empty; choose another with --for");
   const double voxel = longest / kVoxelsAlong;
   // A flat scene is filled as high as an eighth of its length.
   const glm::dvec3 extent = glm::max(diagonal, glm::dvec3(longest / 8.0));

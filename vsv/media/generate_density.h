@@ -1,6 +1,6 @@
 #pragma once
-// Generated densities, so that a fresh machine has smoke without a download: deterministic, fitted to a
-// scene's bounds, written as .vdb files with one float grid, `density`, whose world units are metres.
+// Generated densities, so that no download is needed: deterministic, fitted to a scene's bounds, written as .vdb files
+// with one float grid, `density`, in metres.
 
 #include "scene/scene.h"
 

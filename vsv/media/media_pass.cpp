@@ -17,8 +17,6 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::array<const char*, 4> kIntegratorNames = {"runs", "bits", "popcount", "march"};
-
 uint32_t groups(int count, int size) {
   return static_cast<uint32_t>((count + size - 1) / size);
 }
@@ -36,35 +34,13 @@ glsl::MediaPush pushFor(const MediaLightSource& light, const MediaMethod& method
           .add = add ? 1 : 0};
 }
 
-int32_t bitsIntegrator(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::Runs:
-      return glsl::kIntegrateRuns;
-    case Integrator::Bits:
-      return glsl::kIntegrateBits;
-    default:
-      return glsl::kIntegratePopcount;
-  }
-}
-
 }  // namespace
-
-Integrator parseIntegrator(const std::string& name) {
-  const auto found = std::ranges::find(kIntegratorNames, name);
-  if (found == kIntegratorNames.end())
-    throw UsageError(fmt::format("--integrators {}: choose of {}", name, fmt::join(kIntegratorNames, ", ")));
-  return static_cast<Integrator>(found - kIntegratorNames.begin());
-}
-
-const char* integratorName(Integrator integrator) {
-  return kIntegratorNames[static_cast<size_t>(integrator)];
-}
 
 MediaLightSource mediaLight(const Light& light) {
   if (light.type == LightType::Directional)
     throw WorldError(
-        fmt::format("the light '{}' is directional, and shafts are made of point and spot lights; choose another with "
-                    "--light",
+        fmt::format("the light '{}' is directional, and gnomon fog supports point and spot lights only; choose another "
+                    "with --light",
                     light.name));
   MediaLightSource source{.positionW = glm::dvec3(light.positionW), .intensity = light.color * light.intensity};
   if (light.type == LightType::Spot) {
@@ -140,9 +116,8 @@ void MediaPass::recordTable(gpu::Commands& commands, const Occluders& occluders,
 
 void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                        const Occluders& occluders, const MediaLightSource& light, const MediaMethod& method, bool add) {
-  const bool marchesMap = method.integrator == Integrator::March;
-  GNOMON_CHECK_EQ(marchesMap, occluders.bits() == nullptr);
-  GNOMON_CHECK(method.steps > 0 || (!marchesMap && density_ == nullptr));
+  GNOMON_CHECK_EQ(method.readsDepths(), occluders.bits() == nullptr);
+  GNOMON_CHECK(method.steps > 0 || (!method.integrator->takesSteps && density_ == nullptr));
   std::vector<gpu::Binding> bindings = {
       {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},
       {glsl::kBindInstances, scene.instances}, {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
@@ -153,16 +128,16 @@ void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const
   commands.beginStage("media integrate");
   if (density_ != nullptr) {
     recordDensity(commands, occluders, light, push, instanced, std::move(bindings));
-  } else if (marchesMap) {
-    bindings.emplace_back(glsl::kBindMapDepth, occluders.depth());
-    commands.dispatch(programs_.get("vsv/march_map.comp.glsl", {{.id = 0, .value = occluders.kind()}, instanced}),
-                      groupCount_, gpu::asPush(push), bindings);
   } else {
-    bindings.emplace_back(glsl::kBindBits, *occluders.bits());
-    bindings.emplace_back(glsl::kBindRunning, running_);
-    commands.dispatch(programs_.get("vsv/integrate_bits.comp.glsl",
-                                    {{.id = 0, .value = bitsIntegrator(method.integrator)}, instanced}),
-                      groupCount_, gpu::asPush(push), bindings);
+    std::vector<gpu::Specialization> constants = {instanced};
+    if (method.readsDepths()) {
+      constants.push_back({.id = 0, .value = occluders.kind()});
+      bindings.emplace_back(glsl::kBindMapDepth, occluders.depth());
+    } else {
+      bindings.emplace_back(glsl::kBindBits, *occluders.bits());
+      bindings.emplace_back(glsl::kBindRunning, running_);
+    }
+    commands.dispatch(programs_.get(method.integrator->shader, constants), groupCount_, gpu::asPush(push), bindings);
   }
   commands.endStage();
 }

@@ -5,6 +5,7 @@
 #include "scene/gbuffer.h"
 #include "shadow/occluders.h"
 #include "vsv/media/density.h"
+#include "vsv/media/integrator.h"
 
 #include "shared/media_pass.glsl"
 
@@ -12,21 +13,6 @@
 #include <vector>
 
 namespace gnomon {
-
-// How the integral along a view ray is taken.
-enum class Integrator {
-  Runs,      // runs of lit bits, each the difference of two values of the running integral
-  Bits,      // the integral over one bit, summed over the lit bits
-  Popcount,  // the whole integral times the share of bits that are lit
-  March,     // samples at equal distances, each looked up in a shadow map
-};
-Integrator parseIntegrator(const std::string& name);  // runs, bits, popcount, march. Throws UsageError.
-const char* integratorName(Integrator integrator);
-
-struct MediaMethod {
-  Integrator integrator = Integrator::Runs;
-  int steps = 0;  // of March; and of every integrator in a heterogeneous medium, where the view ray is marched
-};
 
 struct MediaLightSource {
   glm::dvec3 positionW{0.0};
@@ -56,8 +42,9 @@ class MediaPass {
   // light and what is about it. Stage "media table".
   void recordTable(gpu::Commands& commands, const Occluders& occluders, const MediaLightSource& light);
 
-  // Light scattered towards the eye. `occluders`: a volume's for Runs, Bits and Popcount, a map's for March. In a
-  // heterogeneous medium every integrator marches, through whichever they are. `add`: to what other lights scattered. Stage "media integrate".
+  // Light scattered towards the eye. `occluders`: a volume's or a map's, as the integrator reads bits or depths. In a
+  // heterogeneous medium every integrator marches, through whichever they are. `add`: to what other lights scattered.
+  // Stage "media integrate".
   // Several lights: recordTable, barrier, record, barrier, recordTable of the next.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const Occluders& occluders,
               const MediaLightSource& light, const MediaMethod& method, bool add);

@@ -9,7 +9,7 @@ GNOMON_SHARED_BEGIN
 
 const int kConstantOffset = 0;  // metres
 
-// lit  <=>  the receiver, at its depth on the texel's ray, lies within `offset` metres behind a depth that the texel stores.
+// Lit where the receiver, at its depth on the texel's ray, lies at most `offset` metres behind what the texel stores.
 GNOMON_FN bool litBehind(ShadowMap map, Receiver receiver, Tap tap, float stored, float offset) {
   float depth = mapDepth(map, tap.layer, receiver.posL);
   float distance_ = mapDistance(map, tap.layer, tap.ray, depth);

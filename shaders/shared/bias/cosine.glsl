@@ -1,6 +1,6 @@
 // Cosine bias: a constant weighted by the angle between the surface and the light.
-// Gautron, Marvie, Briand, "Method for Generating Shadows in an Image", EP 2411967, 2013: none where the surface faces the light,
-// the whole offset where it is edge-on.
+// Gautron, Marvie, Briand, "Method for Generating Shadows in an Image", EP 2411967, 2013: none where the surface faces
+// the light, the whole offset where it is edge-on.
 #ifndef GNOMON_BIAS_COSINE_GLSL
 #define GNOMON_BIAS_COSINE_GLSL
 

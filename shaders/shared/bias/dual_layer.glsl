@@ -2,9 +2,9 @@
 //   midpoint  (z2 - z1) / 2               Woo, "The Shadow Depth Map Revisited", Graphics Gems III, 1992
 //   dual      min((z2 - z1) / 2, offset)  Weiskopf, Ertl, "Shadow Mapping Based on Dual Depth Layers", 2003, equation 2
 //
-// Differs from the paper: z1, z2 and the receiver are compared as metres along the texel's ray, and not as the map encodes
-// them, so that the offset is a length and the midpoint the same on every map. z2 is the far end where there is no second
-// layer.
+// Differs from the paper: z1, z2 and the receiver are compared as metres along the texel's ray, and not as the map
+// encodes them, so that the offset is a length and the midpoint the same on every map. z2 is the far end where
+// there is no second layer.
 #ifndef GNOMON_BIAS_DUAL_LAYER_GLSL
 #define GNOMON_BIAS_DUAL_LAYER_GLSL
 

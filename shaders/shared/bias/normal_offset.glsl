@@ -1,5 +1,5 @@
-// Normal offset: the receiver is moved along its normal, by texels of the map at its distance, times the sine of the angle between
-// normal and light, and then looked up and compared as it is.
+// Normal offset: the receiver is moved along its normal, by texels of the map at its distance, times the sine of the
+// angle between normal and light, and then looked up and compared as it is.
 // Holbert, "Saying Goodbye to Shadow Acne", GDC 2011.
 #ifndef GNOMON_BIAS_NORMAL_OFFSET_GLSL
 #define GNOMON_BIAS_NORMAL_OFFSET_GLSL

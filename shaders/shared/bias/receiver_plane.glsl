@@ -1,7 +1,8 @@
 // Receiver-plane bias: the receiver's depth, carried to the tap along the gradient of its plane in the map.
 // Isidoro, "Shadow Mapping: GPU-Based Tips and Techniques", GDC 2006.
 //
-// In a planar map the depth of a plane is affine in (u, v), and this is the adaptive bias's intersection by another way.
+// In a planar map the depth of a plane is affine in (u, v), and this is the adaptive bias's
+// intersection by another way.
 #ifndef GNOMON_BIAS_RECEIVER_PLANE_GLSL
 #define GNOMON_BIAS_RECEIVER_PLANE_GLSL
 
@@ -19,8 +20,10 @@ GNOMON_FN bool receiverPlaneLit(ShadowMap map, BiasParams params, Receiver recei
   vec2 uv = point.uv;
   vec2 texel = vec2(1.0f / float(map.side), 1.0f / float(map.rows));
   PlaneDepth here = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, uv));
-  PlaneDepth right = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, vec2(uv.x + texel.x, uv.y)));
-  PlaneDepth below = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, vec2(uv.x, uv.y + texel.y)));
+  PlaneDepth right = receiverPlaneDepth(map, tap.layer, receiver,
+                                        mapTexelRay(map, tap.layer, vec2(uv.x + texel.x, uv.y)));
+  PlaneDepth below = receiverPlaneDepth(map, tap.layer, receiver,
+                                        mapTexelRay(map, tap.layer, vec2(uv.x, uv.y + texel.y)));
   vec2 center = mapTexelCenter(map, tap.texel);
   float change = (right.depth - here.depth) * ((center.x - uv.x) / texel.x) +
                  (below.depth - here.depth) * ((center.y - uv.y) / texel.y);

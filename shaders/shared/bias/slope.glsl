@@ -14,8 +14,8 @@ GNOMON_SHARED_BEGIN
 const int kSlopeFactor = 0;
 const int kSlopeOffset = 1;  // metres
 
-// By how much the receiver's plane changes depth from the texel's centre to uv. A plane that the ray through uv does not meet
-// (grazing) changes by the whole range.
+// By how much the receiver's plane changes depth from the texel's centre to uv. A plane that the ray through uv does
+// not meet (grazing) changes by the whole range.
 GNOMON_FN float planeDepthChange(ShadowMap map, int layer, Receiver receiver, float centerDepth, vec2 uv) {
   Ray ray = mapTexelRay(map, layer, uv);
   float t = rayPlaneDistance(ray, receiver.posL, receiver.normalL);

@@ -1,5 +1,5 @@
-// Where a user's own bias goes: `gnomon compare SCENE --bias-file my.glsl` puts that file in the place of this one.
-// samples/my_bias.glsl is a worked example, docs/add_a_bias.md tells what a file may say of itself.
+// Placeholder for a user's own bias: `gnomon compare SCENE --bias-file my.glsl` compiles that file instead of this one.
+// samples/my_bias.glsl is an example, docs/add_a_bias.md says what a file may declare.
 #ifndef GNOMON_BIAS_USER_GLSL
 #define GNOMON_BIAS_USER_GLSL
 
@@ -8,7 +8,8 @@
 
 GNOMON_SHARED_BEGIN
 
-// Whether the texel lights the receiver. What stands here is no bias at all, moved by the knob (metres) as an example of its use.
+// Whether the texel lights the receiver. What stands here is no bias at all, moved by the knob (metres)
+// as an example of its use.
 GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
   return litWithOffset(map, receiver, tap, params.knobs[kUserOffset]);
 }

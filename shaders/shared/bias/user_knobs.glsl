@@ -1,5 +1,5 @@
-// Where the knobs of a user's own bias are found: params.knobs[kUserOffset]. With --bias-file a text that is made of the
-// file's `//! knob:` lines stands here.
+// Indices of a user-defined bias's parameters, as in params.knobs[kUserOffset]. With --bias-file this file is replaced
+// by one generated from the `//! knob:` lines.
 #ifndef GNOMON_BIAS_USER_KNOBS_GLSL
 #define GNOMON_BIAS_USER_KNOBS_GLSL
 

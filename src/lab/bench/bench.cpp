@@ -104,7 +104,7 @@ double runOnce(std::vector<std::string> words, std::vector<std::string> environm
   ::waitpid(child, &status, 0);
   const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw WorldError(fmt::format("{} render: did not end well; run it by itself", program));
+    throw WorldError(fmt::format("{} render: failed; run it by itself to see why", program));
   return passed.count();
 }
 

@@ -1,9 +1,9 @@
 #pragma once
-// What every stage costs on this machine, and how that grows: `gnomon bench`.
+// `gnomon bench`: timings of every stage, and how they scale.
 //
-// Machines are noisy, so all stages run once a round, one after the other, and a stage is told as its ratio
-// to another stage of the same round: the median over the rounds. Milliseconds are wall clock from submission
-// to the end of the wait.
+// Machines are noisy, so all stages run once in each round, one after the other. A stage is reported as its ratio to
+// another stage of the same round, the median over all rounds. Milliseconds are wall clock, from submission to the end
+// of the wait.
 
 #include "lab/core/method.h"
 

@@ -22,7 +22,11 @@ double exponentOf(const Growth& growth, size_t stage) {
 }
 
 std::string growthTable(const Growth& growth) {
-  std::string text = fmt::format("\ngrowth with {} ({}), ms\n{:<28}", growth.size, growth.unit, "");
+  std::string text = fmt::format(
+      "\n"
+      "scaling with {} ({}), ms\n"
+      "{:<28}",
+      growth.size, growth.unit, "");
   for (const Growth::Point& point : growth.points) text += fmt::format("{:>15}", point.name);
   text += fmt::format("{:>10}\n", "exponent");
   for (size_t stage = 0; stage < growth.stages.size(); ++stage) {
@@ -108,7 +112,7 @@ class Diagram {
 std::string benchTable(const Session& session, const Bench& bench) {
   std::string text = fmt::format(
       "{}: {} triangles; camera '{}', {} x {}; {}\n"
-      "ratio: median over the rounds of the stage's time over that of the other stage in the same round\n"
+      "ratio: this stage's time / the other stage's time in the same round, median over the rounds\n"
       "{:<44}{:>10}{:>10}{:>10}{:>9}  {}\n",
       session.scene().name, triangleCount(session.scene()), session.camera().name, session.view().width,
       session.view().height, session.device().info().name, "stage", "median ms", "min", "max", "ratio", "to");
@@ -118,8 +122,8 @@ std::string benchTable(const Session& session, const Bench& bench) {
   for (const Growth& growth : bench.growths) text += growthTable(growth);
   if (bench.start)
     text += fmt::format(
-        "\nfrom typing `gnomon render` to the picture: {:.0f} ms with every cache empty, {:.0f} ms after "
-        "that\n",
+        "\n"
+        "from typing `gnomon render` to the picture: {:.0f} ms with all caches empty, {:.0f} ms with them filled\n",
         bench.start->coldMs, bench.start->warmMs);
   return text;
 }

@@ -136,7 +136,8 @@ void BenchStages::addMaps() {
   };
   const MapOptions& given = options_.mapOptions;
   const auto buildWithVariants = [&](const Parameterization& kind) {
-    build(kind.name(), kind, given, {glsl::kChannelDepth, glsl::kChannelDepth | glsl::kChannelSecondDepth, glsl::kChannelBackDepth});
+    build(kind.name(), kind, given,
+          {glsl::kChannelDepth, glsl::kChannelDepth | glsl::kChannelSecondDepth, glsl::kChannelBackDepth});
     for (const Parameterization::Variant& variant : kind.variants(given))
       build(fmt::format("{}, {}", kind.name(), variant.name), kind, variant.options, {glsl::kChannelDepth});
   };
@@ -216,7 +217,7 @@ void BenchStages::addMedia() {
   medium.pass.setMedium(session_.view(), medium.view.medium);
   const auto integrate = [&](std::string name, const char* base, const MediaMethod& method) {
     add(std::move(name), base, [this, &medium, method] {
-      LightOnMap& lit = method.integrator == Integrator::March ? medium.cube : medium.volume;
+      LightOnMap& lit = method.readsDepths() ? medium.cube : medium.volume;
       const Occluders& occluders = lit.occluders();
       gpu::Commands commands(session_.device(), "media");
       medium.pass.record(commands, session_.buffers(), session_.gbuffer(), occluders, medium.view.sources.front(),
@@ -225,17 +226,20 @@ void BenchStages::addMedia() {
     });
   };
   constexpr const char* kBase = "media/march 32 steps";
-  integrate(kBase, kBaseVisibility, {.integrator = Integrator::March, .steps = 32});
-  for (const int steps : {128, 512})
-    integrate(fmt::format("media/march {} steps", steps), kBase, {.integrator = Integrator::March, .steps = steps});
+  integrate(kBase, kBaseVisibility, {.integrator = &baselineIntegrator(), .steps = 32});
+  for (const Integrator& integrator : integrators())
+    for (const int steps : {32, 128, 512})
+      if (integrator.takesSteps && !(integrator.isBaseline && steps == 32))
+        integrate(fmt::format("media/{} {} steps", integrator.name, steps), kBase,
+                  {.integrator = &integrator, .steps = steps});
   add("media/table of the running integral", kBase, [this, &medium] {
     const Occluders& occluders = medium.volume.occluders();
     gpu::Commands commands(session_.device(), "media table");
     medium.pass.recordTable(commands, occluders, medium.view.sources.front());
     return commands.submitAndWait().wallMs;
   });
-  for (const Integrator integrator : {Integrator::Runs, Integrator::Bits, Integrator::Popcount})
-    integrate(fmt::format("media/{}", integratorName(integrator)), kBase, {.integrator = integrator});
+  for (const Integrator& integrator : integrators())
+    if (!integrator.takesSteps) integrate(fmt::format("media/{}", integrator.name), kBase, {.integrator = &integrator});
 }
 
 }  // namespace gnomon

@@ -153,7 +153,7 @@ class MapComparison {
     const size_t count = entries.size();
     for (size_t i = 0; i < count; ++i) {
       if (knobsOf(*entries[i].method.bias).empty()) continue;
-      step(fmt::format("{}, searching its best knob", entries[i].method.bias->name));
+      step(fmt::format("{}, tuning", entries[i].method.bias->name));
       const TunedMethod tuned = tune(evaluator, entries[i].method);
       entries.push_back({.method = tuned.method, .tuning = robustness ? robustness->judge(tuned) : tuningOf(tuned)});
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The main job: every chosen map with every chosen bias and filter, against the exact shadow, pixel by pixel.
+// `gnomon compare`: every chosen map with every chosen bias and filter, compared with the exact shadow pixel by pixel.
 
 #include "lab/core/method.h"
 #include "lab/results/comparison.h"

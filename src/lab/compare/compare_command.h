@@ -1,5 +1,5 @@
 #pragma once
-// Command lines that make a comparison again, or one of its rows: all that differs from the program's defaults.
+// Command lines that reproduce a comparison, or one of its rows: everything that differs from the program's defaults.
 
 #include "lab/compare/compare.h"
 

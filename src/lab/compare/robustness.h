@@ -1,6 +1,6 @@
 #pragma once
-// How good a tuned knob is where it was not tuned: nobody tunes a bias every frame. The same scene and light,
-// seen by another camera, and mapped at half the resolution.
+// How well tuned parameters work where they were not tuned, since nobody tunes a bias every frame: the same scene and
+// light, seen by another camera, and mapped at half the resolution.
 
 #include "lab/compare/compare.h"
 #include "lab/compare/tune.h"

@@ -1,5 +1,5 @@
 #pragma once
-// The pictures of a comparison, written below its folder.
+// Writes the pictures of a comparison into its folder.
 
 #include "lab/compare/compare.h"
 

@@ -58,7 +58,7 @@ std::string factorLines(const Comparison& comparison) {
               mine > 0     ? fmt::format("{:.2f}", static_cast<double>(theirs) / static_cast<double>(mine))
               : theirs > 0 ? std::string("infinite")
                            : std::string("1 (both none)");
-          text += fmt::format("{} {} against the best {}: {} / {} wrong pixels = {}\n", map.map, biasText(*row),
+          text += fmt::format("{} {} against the tuned {}: {} / {} wrong pixels = {}\n", map.map, biasText(*row),
                               rivalName, theirs, mine, factor);
         }
       }
@@ -80,7 +80,7 @@ std::string comparisonTable(const Comparison& comparison) {
                         const std::string& knobs, const std::string& numbers) {
     return fmt::format("{:<{}} {:<25} {:<9} {:<{}}{}\n", map, mapWidth, bias, filter, knobs, knobWidth, numbers);
   };
-  std::string text = line("map", "bias", "filter", "knobs", columns.head());
+  std::string text = line("map", "bias", "filter", "parameters", columns.head());
   for (const Row& row : ranked(comparison.rows)) {
     if (row.isSum != hasSums(comparison)) continue;  // of several lights their sums; each is in the report
     text += line(mapText(comparison, row), biasText(row), row.filter, knobText(row), columns.line(row));
@@ -93,7 +93,7 @@ std::string tuningTable(const Comparison& comparison) {
   for (const Row& row : comparison.rows) {
     if (!row.tuning || row.isSum || row.filter != comparison.rows.front().filter) continue;
     const Tuning& tuning = *row.tuning;
-    text += fmt::format("tuned {} {}: {} in {} tries; bias error {:.4f}%", row.map, row.bias, knobText(row),
+    text += fmt::format("tuned {} {}: {} after {} evaluations; bias error {:.4f}%", row.map, row.bias, knobText(row),
                         tuning.evaluations, 100.0 * row.biasError());
     if (tuning.otherCamera)
       text += fmt::format("; camera {} {:.4f}% (best there {:.4f}%)", tuning.otherCamera->camera,

@@ -53,7 +53,7 @@ Threshold parseThreshold(const std::string& text) {
     threshold.limit = std::stod(match[5].str(), &used);
     if (used != match[5].str().size() || !std::isfinite(threshold.limit)) throw std::invalid_argument("");
   } catch (const std::exception&) {
-    throw UsageError(fmt::format("--fail-if '{}': '{}' is no number; {}", text, match[5].str(), help));
+    throw UsageError(fmt::format("--fail-if '{}': '{}' is not a number; {}", text, match[5].str(), help));
   }
   if (!findMetric(threshold.metric))
     throw UsageError(fmt::format("--fail-if '{}': no metric '{}'; {}", text, threshold.metric, help));
@@ -70,7 +70,7 @@ std::optional<std::string> crossed(const Threshold& threshold, const std::vector
     if (threshold.percent) value *= pixels ? 100.0 / static_cast<double>(row.scored) : 100.0;
     const bool beyond = threshold.below ? value < threshold.limit : value > threshold.limit;
     if (beyond || (threshold.orEqual && value == threshold.limit))
-      return fmt::format("{} {}: {} is {:.6g}{}, which crosses --fail-if '{}'", row.map, row.bias, threshold.metric,
+      return fmt::format("{} {}: {} is {:.6g}{}, which exceeds --fail-if '{}'", row.map, row.bias, threshold.metric,
                          value, threshold.percent ? "%" : "", threshold.text);
   }
   return std::nullopt;

@@ -8,8 +8,7 @@ namespace gnomon {
 
 namespace {
 
-// The bracket shrinks to 0.618^8 = 2% of its logarithm: within 5% of the value, for the grid of a metres
-// knob.
+// The bracket shrinks to 0.618^8 = 2% of its logarithm: within 5% of the value, for the grid of a metres knob.
 constexpr int kGoldenSteps = 8;
 constexpr double kGolden = 0.6180339887498949;
 

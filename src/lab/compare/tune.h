@@ -1,7 +1,7 @@
 #pragma once
-// The best value of a bias's knobs for one picture: fairness towards methods that have any. All evaluations
-// share one map and one truth, and each pixel's label is found once (a pixel that is wrong in the same way,
-// by the same texel, is wrong for the same reason whatever the knob says).
+// Tuning: the parameter values of a bias with the least acne + leak for one picture, so that biases with parameters are
+// compared fairly. All evaluations share one map and one ground truth. Labels are cached: a pixel that is wrong in the
+// same way, by the same texel, has the same label whatever the parameters.
 
 #include "judge/light_on_map.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a drawn map or volume stores, in metres.
+// The depths that a rendered map or volume stores, converted to metres.
 
 #include "base/image.h"
 #include "shadow/occluders.h"

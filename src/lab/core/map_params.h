@@ -1,5 +1,5 @@
 #pragma once
-// What a row's params say of its map's options, by the names of docs/results.md.
+// The map options in a row's `params`, by the names in docs/results.md.
 
 #include "lab/results/row.h"
 #include "shadow/parameterization.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Every parameterization there is, by its name on the command line.
+// The list of all parameterizations, by their names on the command line.
 
 #include "shadow/parameterization.h"
 

@@ -17,7 +17,8 @@ int mapSideOf(const MapChoice& choice, const Parameterization& map) {
   }
   if (side < 2 || side > 16384)
     throw UsageError(
-        fmt::format("a {} map's side of {} texels is outside 2..16384; choose another --map-size or --map-texels",
+        fmt::format("a {} map would have images of {} texels a side, outside 2..16384; choose another --map-size or "
+                    "--map-texels",
                     map.name(), side));
   return side;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What is chosen of a map and of a bias, and what follows from it: a side, a method with its knobs set.
+// The choices for a map and for a bias, and what follows from them: the map's side, the bias with its parameters set.
 
 #include "lab/core/session.h"
 

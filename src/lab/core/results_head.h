@@ -1,5 +1,5 @@
 #pragma once
-// What the results file of every verb begins with, and a light as it tells it.
+// Fills in the beginning of every verb's results.json, and its description of a light.
 
 #include "lab/core/session.h"
 #include "lab/results/head.h"

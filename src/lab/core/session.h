@@ -1,6 +1,5 @@
 #pragma once
-// What every verb of the program starts from: a scene, its camera and a picture size, chosen by the words of a command
-// line.
+// What every verb starts from: a scene, its camera and a picture size, as chosen on the command line.
 
 #include "judge/light_on_map.h"
 #include "lab/core/setup.h"

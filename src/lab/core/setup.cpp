@@ -113,8 +113,8 @@ Camera parseCamera(const std::string& text) {
   }
   take();
   if (!eye || !target || *eye == *target)
-    throw UsageError(
-        fmt::format("--camera {}: needs an eye and another target; write eye:x,y,z,target:x,y,z[,fov:degrees]", text));
+    throw UsageError(fmt::format(
+        "--camera {}: needs an eye and a target that differ; write eye:x,y,z,target:x,y,z[,fov:degrees]", text));
   if (!(fov >= 1.0 && fov <= 170.0))
     throw UsageError(fmt::format("--camera {}: fov {} is outside 1..170 degrees", text, fov));
   return lookAt("from the command line", *eye, *target, static_cast<float>(glm::radians(fov)));
@@ -168,8 +168,8 @@ Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Param
   }
   if (map.supportsLight(light.type) == LightSupport::No)
     throw WorldError(
-        fmt::format("--light {}: a directional light has no position, so a {} map cannot be made of it; take "
-                    "--maps directional, or another light, or x,y,z",
+        fmt::format("--light {}: a directional light has no position, which a {} map needs; use --maps directional, "
+                    "another light, or x,y,z",
                     light.name, map.name()));
   return light;
 }
@@ -187,10 +187,8 @@ std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& trace
     }
   }
   if (lights.empty())
-    throw WorldError(
-        fmt::format("--light all: the scene has no light that a {} map can be made of; it has {}; "
-                    "write x,y,z",
-                    map.name(), namesOf(tracer.scene().lights)));
+    throw WorldError(fmt::format("--light all: the scene has no light that a {} map supports; it has {}; write x,y,z",
+                                 map.name(), namesOf(tracer.scene().lights)));
   return lights;
 }
 

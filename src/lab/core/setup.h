@@ -1,5 +1,5 @@
 #pragma once
-// From the words of a command line to what is measured: a scene, a light, a camera, a picture size.
+// Resolves the command line's --light, --camera, --size and so on to a scene, a light, a camera and a picture size.
 
 #include "base/parse.h"
 #include "shadow/parameterization.h"

@@ -15,28 +15,29 @@ namespace gnomon {
 
 namespace {
 
-// In a density every integrator marches, and those of a volume differ in nothing: they are one, `bits`.
+// In a density every integrator marches, and those that read the same differ in nothing.
 std::vector<MediaMethod> methodsOf(const FogOptions& options) {
   std::vector<MediaMethod> methods;
-  for (Integrator integrator : options.integrators) {
-    const bool marches = integrator == Integrator::March || options.medium.density != nullptr;
-    if (integrator != Integrator::March && marches) integrator = Integrator::Bits;
-    for (const int steps : marches ? options.steps : std::vector{0}) {
-      const auto same = [&](const MediaMethod& m) { return m.integrator == integrator && m.steps == steps; };
-      if (std::ranges::none_of(methods, same)) methods.push_back({.integrator = integrator, .steps = steps});
+  const bool dense = options.medium.density != nullptr;
+  for (const Integrator* chosen : options.integrators) {
+    const Integrator* integrator = dense ? &integratorInDensity(*chosen) : chosen;
+    for (const int steps : dense || integrator->takesSteps ? options.steps : std::vector{0}) {
+      const MediaMethod method{.integrator = integrator, .steps = steps};
+      if (std::ranges::find(methods, method) == methods.end()) methods.push_back(method);
     }
   }
   return methods;
 }
 
 Params paramsOf(const MediaMethod& method, const FogOptions& options, size_t lightCount) {
-  const bool march = method.integrator == Integrator::March;
-  Params params = {{"map_size", march ? std::to_string(options.mapSide) : options.map.text(kVolumeSize)},
+  const bool ofMap = method.readsDepths();
+  Params params = {{"map_size", ofMap ? std::to_string(options.mapSide) : options.map.text(kVolumeSize)},
                    {"lights", static_cast<int64_t>(lightCount)}};
-  if (!march) {
+  if (!ofMap) {
     params.push_back({"vsv_source", options.map.text(kVolumeSource)});
     params.push_back({"vsv_fit", options.map.text(kVolumeFit)});
-    if (options.map.get(kVolumeSource) == VolumeSource::Resample) params.push_back({"cube_size", int64_t{options.mapSide}});
+    if (options.map.get(kVolumeSource) == VolumeSource::Resample)
+      params.push_back({"cube_size", int64_t{options.mapSide}});
   }
   params.push_back({"cull", cullModeName(options.cull)});
   return params;
@@ -44,11 +45,10 @@ Params paramsOf(const MediaMethod& method, const FogOptions& options, size_t lig
 
 MediaRow rowOf(const MediaMethod& method, const FogMethodResult& measured, const FogOptions& options,
                size_t lightCount) {
-  const bool march = method.integrator == Integrator::March;
-  return {.integrator = integratorName(method.integrator),
+  return {.integrator = method.integrator->name,
           .steps = method.steps > 0 ? std::optional(method.steps) : std::nullopt,
-          .isBaseline = march,
-          .map = march ? options.marchMap->name() : volumeParameterization().name(),
+          .isBaseline = method.integrator->isBaseline,
+          .map = method.readsDepths() ? options.marchMap->name() : volumeParameterization().name(),
           .params = paramsOf(method, options, lightCount),
           .mapMs = measured.mapMs,
           .tableMs = measured.tableMs,

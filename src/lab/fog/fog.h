@@ -1,6 +1,6 @@
 #pragma once
-// Light shafts in a medium by every chosen way to integrate, against the traced reference: the work behind
-// `gnomon fog`. docs/media.md has the model and its units.
+// `gnomon fog`: light shafts by every chosen integrator, compared with a ray-traced reference. docs/media.md has the
+// model and its units.
 
 #include "lab/fog/fog_measure.h"
 #include "lab/fog/fog_view.h"
@@ -18,8 +18,8 @@ struct FogMotion {
 };
 
 struct FogOptions {
-  std::vector<Integrator> integrators;
-  std::vector<int> steps = {32, 128, 512};     // of a march
+  std::vector<const Integrator*> integrators;
+  std::vector<int> steps = {32, 128, 512};     // of those that take steps
   const Parameterization* marchMap = nullptr;  // cube or paraboloid
   MapOptions map;                              // size, source and fit of the volume
   int mapSide = 1024;                          // texels, of the march's map and of --vsv-source resample

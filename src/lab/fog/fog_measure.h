@@ -1,5 +1,5 @@
 #pragma once
-// How good a way to integrate is, what it costs, and how it stands against a march.
+// Errors and costs of an integrator, and how it compares with ray marching.
 
 #include "lab/core/method.h"
 #include "lab/fog/fog_methods.h"
@@ -23,8 +23,8 @@ double changeBeyond(const ImageF& measured, const ImageF& measuredNext, const Im
 
 double meanValue(const ImageF& image);
 
-// Of each row with an error that is no baseline, with and without builds, by both measures: read off the baseline's curve
-// of error over time (steps are joined by straight lines in log-log). Empty without a baseline.
+// Of each row with an error that is no baseline, with and without builds, by both measures: read off the baseline's
+// curve of error over time (steps are joined by straight lines in log-log). Empty without a baseline.
 std::vector<EqualTerms> equalTerms(const std::vector<MediaRow>& rows);
 
 // "12.3", ">= 12.3", "<= 0.8".

@@ -9,10 +9,6 @@ namespace gnomon {
 
 namespace {
 
-bool marchesMap(const MediaMethod& method) {
-  return method.integrator == Integrator::March;
-}
-
 // One light's volume and map, fitted to all view rays and drawn for the methods that read them.
 class LightMaps {
  public:
@@ -30,7 +26,7 @@ class LightMaps {
   static MapSetup setupOf(const FogView& view, const FogMethodOptions& options) {
     return {.side = options.mapSide, .options = options.map, .cull = options.cull, .receiversW = view.receiversW};
   }
-  LightOnMap& lightFor(const MediaMethod& method) { return marchesMap(method) ? *map_ : volume_; }
+  LightOnMap& lightFor(const MediaMethod& method) { return method.readsDepths() ? *map_ : volume_; }
 
   LightOnMap volume_;
   std::optional<LightOnMap> map_;  // of marches
@@ -66,7 +62,7 @@ void timeMethods(const SceneView& scene, MediaPass& pass, LightMaps& maps, const
     std::optional<double> mapMs[2];
     for (size_t i = 0; i < options.methods.size(); ++i) {
       const MediaMethod& method = options.methods[i];
-      std::optional<double>& drawn = mapMs[marchesMap(method) ? 1 : 0];
+      std::optional<double>& drawn = mapMs[method.readsDepths() ? 1 : 0];
       if (!drawn) drawn = maps.redraw(method);
       const PassTimes times = integrate(scene, pass, maps.of(method), light, method, heterogeneous);
       samples[i].map.push_back(*drawn);

@@ -1,5 +1,5 @@
 #pragma once
-// The ways to integrate, run and timed on the GPU.
+// Runs and times the integrators on the GPU.
 
 #include "lab/fog/fog_view.h"
 

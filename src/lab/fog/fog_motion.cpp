@@ -107,11 +107,11 @@ FogMotion parseMotion(const std::string& text, int frames) {
   if (colon == std::string::npos || (what != "light" && what != "camera"))
     throw UsageError(fmt::format("--move {}: write light:x,y,z or camera:x,y,z, in metres", text));
   if (frames < 2 || frames > kMostFrames)
-    throw UsageError(fmt::format("--frames {}: a motion has 2..{} frames", frames, kMostFrames));
+    throw UsageError(fmt::format("--frames {}: give 2..{} frames", frames, kMostFrames));
   FogMotion motion{
       .frames = frames, .camera = what == "camera", .offsetW = parseVec3("--move", text.substr(colon + 1))};
   if (motion.offsetW == glm::vec3(0.0f))
-    throw UsageError(fmt::format("--move {}: nothing moves; write how far, in metres", text));
+    throw UsageError(fmt::format("--move {}: the offset is zero; write it in metres", text));
   return motion;
 }
 

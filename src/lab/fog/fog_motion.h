@@ -1,5 +1,5 @@
 #pragma once
-// Light shafts while the light or the camera moves: frames, a video, and how much they flicker.
+// Light shafts in motion: the frames while the light or the camera moves, a video, and flicker.
 
 #include "lab/fog/fog.h"
 

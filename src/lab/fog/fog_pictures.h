@@ -1,6 +1,5 @@
 #pragma once
-// Pictures of a medium: exposed PNGs for people, EXRs for data, differences, the place where methods err
-// most.
+// Pictures of a medium: exposed PNGs for viewing, EXRs for data, differences, and a crop where the error is largest.
 
 #include "lab/fog/fog_measure.h"
 

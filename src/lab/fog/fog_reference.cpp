@@ -116,7 +116,7 @@ void writeReference(const std::filesystem::path& path, const gpu::Hash128& key, 
   try {
     writeTextFile(path, bytes + body);
   } catch (const WorldError& error) {
-    std::fprintf(stderr, "gnomon: the reference is not kept: %s\n", error.what());
+    std::fprintf(stderr, "gnomon: the reference could not be cached: %s\n", error.what());
   }
 }
 
@@ -159,7 +159,7 @@ KeptReference referenceFor(const SceneView& scene, const FogView& view, const Me
   if (!path.empty() && std::filesystem::is_regular_file(path, failure)) {
     if (std::optional<MediaReference> kept = readReference(path, key, scene.view()))
       return {.reference = std::move(*kept), .fromCache = true};
-    std::fprintf(stderr, "gnomon: %s: is damaged; the reference is computed anew\n", path.string().c_str());
+    std::fprintf(stderr, "gnomon: %s: the cached reference is damaged; tracing it again\n", path.string().c_str());
   }
   KeptReference made{.reference = computeMediaReference(scene.tracer(), view.exactLights, scene.view(), view.ends,
                                                         view.model, options)};

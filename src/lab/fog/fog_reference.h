@@ -1,7 +1,7 @@
 #pragma once
-// The media reference, kept on disk: it costs some ten thousand rays where a picture costs one, and does not
-// change while the scene, the lights, the camera and the medium do not. Beside the compiled shaders
-// (GNOMON_CACHE_DIR), under a hash of everything that decides it; a damaged file is computed anew.
+// The media reference's disk cache. A reference takes some ten thousand rays where a picture takes one, and stays the
+// same as long as the scene, the lights, the camera and the medium do. It is stored next to the compiled shaders
+// (GNOMON_CACHE_DIR), under a hash of everything it depends on; a damaged file is computed again.
 
 #include "gpu/spirv_cache.h"
 #include "lab/fog/fog_view.h"

@@ -33,12 +33,12 @@ std::string referenceText(const FogResult& result) {
   const double pixels = static_cast<double>(reference.inScattered.values.size() / 3);
   const double perPixel = static_cast<double>(reference.rays) / pixels;
   std::string text = fmt::format(
-      "mean {:.4g} cd/m^2; the last doubling of a pixel's samples changed none by more than {:.2g} of it "
-      "(bound {:.2g}; {:.0f} rays a pixel, at most {} doublings",
+      "mean {:.4g} cd/m^2; the last doubling of samples changed no pixel by more than {:.2g} of it (tolerance "
+      "{:.2g}; {:.0f} rays a pixel, at most {} doublings",
       reference.mean, reference.worstChange, reference.bound, perPixel, reference.doublings);
-  if (reference.atLimit > 0) text += fmt::format("; {} pixels ran into that limit", reference.atLimit);
+  if (reference.atLimit > 0) text += fmt::format("; {} pixels reached that limit", reference.atLimit);
   return text +
-         fmt::format("; {}{:.1f} s)", result.referenceFromCache ? "kept from a run of " : "", reference.ms / 1000.0);
+         fmt::format("; {}{:.1f} s)", result.referenceFromCache ? "cached, from a run of " : "", reference.ms / 1000.0);
 }
 
 // Of a row, with or without builds: both measures in one line.
@@ -61,8 +61,8 @@ std::string termsText(const FogResult& result) {
     }
   }
   return text +
-         ">=: the march does not come to that error, or is not that fast, with the steps tried; <=: it is "
-         "better or faster with all of them\n";
+         ">=: the march does not reach that error, or is not that fast, with the step counts tried; <=: it is better "
+         "or faster with all of them\n";
 }
 
 LightFacts lightFacts(const Light& light, const MediaLightSource& source) {
@@ -116,7 +116,7 @@ std::string fogTable(const Session& session, const FogOptions&, const FogResult&
   if (view.density)
     text += fmt::format(
         "density: grid '{}', {} voxels of {:.4g} m, from {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g}; "
-        "runs, bits and popcount are one there, which marches\n",
+        "the integrators of a volume are one there, which marches\n",
         view.density->gridName(), view.density->activeVoxels(), view.density->voxelMetres(),
         view.density->boundsW().lower.x, view.density->boundsW().lower.y, view.density->boundsW().lower.z,
         view.density->boundsW().upper.x, view.density->boundsW().upper.y, view.density->boundsW().upper.z);

@@ -1,5 +1,5 @@
 #pragma once
-// What `gnomon fog` found: as lines for a terminal, and as results.json (docs/results.md).
+// The results of `gnomon fog`, as a table for the terminal and as results.json (docs/results.md).
 
 #include "lab/fog/fog.h"
 

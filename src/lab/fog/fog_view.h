@@ -1,6 +1,6 @@
 #pragma once
-// What a camera sees of a lit medium before any method integrates it: the medium, its lights, where the view
-// rays end, and the surfaces behind it with the exact shadow.
+// The inputs that all integrators share: the medium, its lights, the ends of the view rays, and the surfaces behind the
+// medium, shaded with the exact shadow.
 
 #include "lab/core/session.h"
 #include "truth/media_reference.h"

@@ -84,7 +84,7 @@ TemplateData termsViews(const MediaResults& media) {
     for (const bool withBuild : {true, false}) {
       TemplateData view;
       view.set("method", row.name());
-      view.set("counts", withBuild ? "map, table and integral" : "the integral alone");
+      view.set("counts", withBuild ? "map, table and integral" : "integration alone");
       bool any = false;
       for (const auto& [measure, faster, better] :
            {std::tuple{ErrorMeasure::RelRmse, "faster", "better"}, {ErrorMeasure::RelRmse99, "faster99", "better99"}}) {
@@ -159,7 +159,7 @@ TemplateData plotView(const MediaResults& media, const char* size, double width,
 TemplateData plotViews(const MediaResults& media) {
   TemplateData list = viewList();
   for (const auto& [title, error] :
-       {std::pair{"All pixels", &MediaRow::relRmse}, {"The 99 % of the pixels that err least", &MediaRow::relRmse99}}) {
+       {std::pair{"All pixels", &MediaRow::relRmse}, {"Without the worst 1 % of the pixels", &MediaRow::relRmse99}}) {
     TemplateData view, sizes = viewList();
     view.set("title", title);
     sizes.push_back(plotView(media, "wide", 980.0, 400.0, error));

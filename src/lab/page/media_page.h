@@ -1,5 +1,5 @@
 #pragma once
-// The page of a medium: its table, error against time, the shafts' edges, every picture.
+// The report of gnomon fog: the table, error against time, crops of the shafts' edges, every picture.
 
 #include "lab/results/media_results.h"
 

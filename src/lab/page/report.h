@@ -1,6 +1,6 @@
 #pragma once
-// The comparison in a folder as one page that needs nothing else: pictures, style and script are within it,
-// no network, no server. Without a script it still shows the table, the plot, every picture and the text.
+// The HTML report of a folder with results: one self-contained file, which works offline. Without JavaScript it still
+// shows the table, the plot, every picture and the text.
 
 #include <filesystem>
 #include <string>

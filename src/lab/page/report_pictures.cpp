@@ -45,7 +45,7 @@ std::optional<EmbeddedPicture> ReportPictureShelf::embed(const std::string& path
   try {
     if (!staysWithin(path)) throw fileError(path, "leaves the folder", "");
     const std::string png = readFile(folder_ / path);
-    if (!png.starts_with(kPngSignature) || png.size() < 24) throw fileError(path, "is no PNG", "");
+    if (!png.starts_with(kPngSignature) || png.size() < 24) throw fileError(path, "is not a PNG", "");
     EmbeddedPicture picture{.id = fmt::format("picture-{}", embedded_.size() + 1),
                             .dataUri = asJpeg ? "data:image/jpeg;base64," + base64(jpegOf(png, path))
                                               : "data:image/png;base64," + base64(png),

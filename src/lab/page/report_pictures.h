@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of a report as data URIs, each embedded once however often it is named.
+// A report's pictures as data URIs, each embedded once however often it is used.
 
 #include <filesystem>
 #include <map>

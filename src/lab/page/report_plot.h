@@ -1,6 +1,6 @@
 #pragma once
-// Where the marks of the report's plot stand: cost to the right (linear or logarithmic), error upwards
-// (logarithmic, with a strip of its own for 0 below). In the units of an SVG's viewBox, y down.
+// Positions of the marks in the report's plot: cost to the right (linear or logarithmic), error upwards (logarithmic,
+// with a separate strip for 0 below). In the units of an SVG's viewBox, y down.
 //
 //   10% -|        o none
 //        |
@@ -54,8 +54,7 @@ Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height,
 // Round steps of 1, 2 or 5 times a power of ten: about `count` numbers within [from, to].
 std::vector<double> roundSteps(double from, double to, int count);
 
-// 1, 2 and 5 times the powers of ten within [from, to], from > 0; the powers alone where that is more than
-// `most`.
+// 1, 2 and 5 times the powers of ten within [from, to], from > 0; the powers alone where that is more than `most`.
 std::vector<double> decadeSteps(double from, double to, size_t most);
 
 }  // namespace gnomon

@@ -1,5 +1,5 @@
 #pragma once
-// Rows of a comparison as the page's template names them.
+// Formats the rows of a comparison for the page's template.
 
 #include "lab/page/report_views.h"
 #include "lab/results/comparison.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and names as the pages write them.
+// Formats numbers and names for the pages.
 
 #include "lab/results/light_facts.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-// What the pages of a comparison and of a medium share: their head, declared columns, the frame of a plot, pictures by kind.
+// What the pages of a comparison and of a medium share: their head, declared columns, the frame of a plot, pictures by
+// kind.
 
 #include "lab/page/report_pictures.h"
 #include "lab/page/report_plot.h"

@@ -1,9 +1,8 @@
 #pragma once
-// What a paper says, and whether it holds here: a verdict is computed from measured numbers by a rule that
-// stands beside the claim, and by nothing else.
+// Claims of a paper and their verdicts. A verdict is computed from measured numbers by the rule next to the claim, and
+// by nothing else.
 //
-//   {.figure = "5 (c)", .says = "...", .conditions = {"leak(5c) < leak(5b) / 10", "acne(5c) >= 0.9
-//   acne(5b)"}}
+//   {.figure = "5 (c)", .says = "...", .conditions = {"leak(5c) < leak(5b) / 10", "acne(5c) >= 0.9 acne(5b)"}}
 //
 // A number is named quantity(place). A condition compares sums, two or more in a chain (0.9 a(b) <= a(c) <=
 // 1.1 a(b)): numbers, literals (10, 0.1%), + - * /, parentheses, min(..., ...) and max(..., ...). All

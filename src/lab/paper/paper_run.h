@@ -1,6 +1,5 @@
 #pragma once
-// What running the figures of a paper shares: scenes and comparisons, panels and their numbers, frames timed
-// in rounds.
+// Shared by the papers' figures: opening scenes, running comparisons, panels and their numbers, frames timed in rounds.
 
 #include "lab/paper/reproduce.h"
 #include "shadow/filter.h"
@@ -52,8 +51,7 @@ class PaperRun {
   Reproduction result_;
 };
 
-// The panels of one figure. Numbers of a panel are named by figure and panel: "acne(5b)", "leak(7 near
-// slope)".
+// The panels of one figure. Numbers of a panel are named by figure and panel: "acne(5b)", "leak(7 near slope)".
 class FigureRun {
  public:
   FigureRun(PaperRun& run, const std::string& id, const std::string& title);

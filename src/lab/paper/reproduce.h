@@ -1,5 +1,5 @@
 #pragma once
-// The papers' figures and tables made again by one command: `gnomon reproduce weiskopf2003 | dou2014`.
+// `gnomon reproduce weiskopf2003 | dou2014`: a paper's figures and tables, reproduced by one command.
 //
 // A figure is a row of panels, each a picture with its label counts beside what the paper says it shows. All
 // counts and times become numbers by name, and the paper's claims are judged from those alone (lab/paper/claims.h).

@@ -28,8 +28,7 @@ CompareOptions mapOf(const PaperRun& run, const char* map, int side, const char*
   return options;
 }
 
-// Figures 1 and 6: the paper tells no constants; here they are the best for the picture. K is the published
-// one.
+// Figures 1 and 6: the paper tells no constants; here they are the best for the picture. K is the published one.
 void interior(PaperRun& run, const char* id, const char* camera) {
   run.open("atrium", "lantern", camera, run.scaled(1024));
   if (run.ownScene() && std::string(id) == "6") {
@@ -168,8 +167,7 @@ void figure8(PaperRun& run) {
                "adaptive; drawn into the columns, what the camera sees (not in the paper)", "");
 }
 
-// Figure 9: how edge-on to the light the pixels are that the bias gets wrong, and what they weigh once
-// shaded.
+// Figure 9: how edge-on to the light the pixels are that the bias gets wrong, and what they weigh once shaded.
 void figure9(PaperRun& run) {
   const Session& session = run.open("atrium", "sun", "court", run.scaled(1024));
   FigureRun figure(run, "9", "Where the plane is almost parallel to the light");

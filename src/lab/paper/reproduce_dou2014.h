@@ -1,5 +1,5 @@
 #pragma once
-// Parts of the reproduction of Dou et al. 2014 that have a file of their own.
+// The parts of the reproduction of Dou et al. 2014 that are in separate files.
 
 #include "lab/paper/paper_run.h"
 

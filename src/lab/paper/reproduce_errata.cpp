@@ -71,7 +71,7 @@ class ErrataTable {
  private:
   PaperRun& run_;
   PaperTable table_{.id = "of errata",
-                    .title = "What the text prints, and what it means: wrong pixels",
+                    .title = "The paper's equations as printed, and as meant: wrong pixels",
                     .note = {},
                     .columns = {"place, reading", "wrong pixels", "of them acne", "leak"},
                     .rows = {}};

@@ -149,7 +149,7 @@ std::string reproductionHtml(const Reproduction& reproduction, const ReproduceOp
   page.set("paper", reproduction.paper);
   page.set("citation", reproduction.citation);
   page.set("device", reproduction.device);
-  page.set("scene", options.scene.empty() ? "generated, as each figure tells" : options.scene);
+  page.set("scene", options.scene.empty() ? "generated, given with each figure" : options.scene);
   page.set("scale", fmt::format("{:g}", options.scale));
   page.set("seconds", fmt::format("{:.0f}", reproduction.seconds));
   page.set("command", command);

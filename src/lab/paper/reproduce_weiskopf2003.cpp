@@ -56,8 +56,7 @@ void figure5(PaperRun& run) {
                "Convincing, although the map is heavily undersampled.");
 }
 
-// Figures 6 and 7: the paper does not tell its offsets, which were set by hand. Here each is the best for the
-// picture.
+// Figures 6 and 7: the paper does not tell its offsets, which were set by hand. Here each is the best for the picture.
 void figure6(PaperRun& run) {
   run.open("double-torus", "", "", run.scaled(768));
   FigureRun figure(run, "6", "Curved solids, with bilinear filtering and without");
@@ -243,8 +242,8 @@ std::vector<Claim> weiskopfClaims() {
        {"leak(6c) <= leak(6b) / 2", "leak(6c) <= leak(6b) / 10"}},
       {kPaper,
        "6 (d-f)",
-       "Bilinear filtering makes the artefacts show less.",
-       "each unfiltered and through the filter, against the exact shadow through the same one",
+       "Bilinear filtering makes the artefacts less visible.",
+       "each unfiltered and filtered, compared with the exact shadow through the same filter",
        {"rmse(6d) < rmse(6a)", "rmse(6e) < rmse(6b)", "rmse(6f) < rmse(6c)", "flip(6d) < flip(6a)",
         "flip(6e) < flip(6b)", "flip(6f) < flip(6c)"}},
       {kPaper,
@@ -265,31 +264,31 @@ std::vector<Claim> weiskopfClaims() {
       {kPaper,
        "table 1",
        "Midpoint and dual maps run at the same speed.",
-       "frames in rounds",
+       "frames, interleaved",
        {"0.9 ratio(midpoint 256 none) <= ratio(dual 256 none) <= 1.1 ratio(midpoint 256 none)",
         "0.9 ratio(midpoint 2048 none) <= ratio(dual 2048 none) <= 1.1 ratio(midpoint 2048 none)"}},
       {kPaper,
        "table 1",
        "On large maps they have roughly half the speed of a constant bias.",
-       "frames in rounds; roughly half is one to two thirds",
+       "frames, interleaved; roughly half means one to two thirds",
        {"1.5 ratio(constant 2048 none) <= ratio(dual 2048 none) <= 3 ratio(constant 2048 none)"}},
       {kPaper,
        "table 1",
        "On small maps, or with more filtering, the difference is much smaller.",
-       "frames in rounds; much smaller is less than half",
+       "frames, interleaved; much smaller means less than half",
        {"ratio(dual 256 none) / ratio(constant 256 none) - 1 < (ratio(dual 2048 none) / ratio(constant 2048 "
         "none) - 1) / 2",
         "ratio(dual 2048 jitter4x4) / ratio(constant 2048 jitter4x4) - 1 < (ratio(dual 2048 none) / "
         "ratio(constant 2048 none) - 1) / 2"}},
       {kPaper,
        "section 7",
-       "With an endless offset dual maps become midpoint maps.",
-       "the offset, swept",
+       "With an infinite offset dual maps become midpoint maps.",
+       "a sweep of the offset",
        {"error(midpoint) <= error(dual, endless offset) <= error(midpoint)"}},
       {kPaper,
        "section 7",
        "The result depends much less on the offset than a constant's does.",
-       "the offset, swept over a factor of 64; much less is a spread of less than a quarter",
+       "a sweep of the offset over a factor of 64; much less means less than a quarter of the spread",
        {"most(dual offsets) - least(dual offsets) < (most(constant offsets) - least(constant offsets)) / 4"}},
   };
 }

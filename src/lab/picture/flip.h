@@ -1,8 +1,8 @@
 #pragma once
-// How different two pictures look to a person who flips between them: 0 the same, 1 as different as can be.
-// Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild, "FLIP: A Difference Evaluator for
-// Alternating Images", HPG 2020 (LDR-FLIP). Pooling as in section 5 there: percentiles are weighted by the
-// error, so that a large area without error does not hide a small one with much.
+// FLIP: how different two pictures look to a viewer who flips between them, from 0 (equal) to 1.
+// Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild, "FLIP: A Difference Evaluator for Alternating
+// Images", HPG 2020 (LDR-FLIP). Pooling as in section 5 there: percentiles are weighted by the error, so that a large
+// area without error does not hide a small one with much.
 
 #include "base/image.h"
 

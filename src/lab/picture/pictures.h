@@ -1,6 +1,6 @@
 #pragma once
-// Pictures for people: label maps with a legend, visibility in grey, stored depth. Colours are from the
-// palette of Okabe and Ito, "Color Universal Design" (2008), and differ in lightness too.
+// Pictures for viewing: labels with a legend, visibility in grey, stored depth. Colours are from the palette of Okabe
+// and Ito, "Color Universal Design" (2008), and differ in lightness too.
 
 #include "base/image.h"
 #include "truth/labels.h"
@@ -28,9 +28,8 @@ std::vector<float> truthVisibility(const Receivers& receivers, const Truth& trut
 // Depth in metres, near bright and far dark; texels without a surface (infinity) dark blue.
 Image8 depthPicture(const ImageF& metres);
 
-// Texels per square metre (judge/texel_density.h), on a logarithmic ramp from dark blue to yellow, readable
-// without red and green; not scored dark grey, uncovered reddish purple. A strip below has the scale and the
-// median.
+// Texels per square metre (judge/texel_density.h), on a logarithmic ramp from dark blue to yellow, readable without red
+// and green; not scored dark grey, uncovered reddish purple. A strip below has the scale and the median.
 Image8 densityPicture(const Receivers& receivers, std::span<const float> densities, const std::string& title);
 
 // Text in a built-in vector font of 7 pixels' height times `scale`; (x, y) is its upper left corner.

@@ -1,5 +1,5 @@
 #pragma once
-// A map of many layers as one picture, and how evenly its texels look around.
+// A map's images unfolded into one picture, and the solid angles of its texels.
 
 #include "base/image.h"
 #include "shadow/parameterization.h"
@@ -16,9 +16,8 @@ namespace gnomon {
 //               -Y           seen from the light
 Image8 unfoldedPicture(const Image8& layers, const FittedMap& fitted, const glm::u8vec3& outside);
 
-// Steradians of the smallest and the largest texel, and of all. Absent for directional maps, whose rays are
-// parallel. Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", 1983, of the two halves of each
-// texel.
+// Steradians of the smallest and the largest texel, and of all. Absent for directional maps, whose rays are parallel.
+// Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", 1983, of the two halves of each texel.
 struct SolidAngles {
   double smallest = 0.0, largest = 0.0, sum = 0.0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What results.json holds of gnomon compare.
+// The results.json of gnomon compare, as a struct.
 
 #include "lab/results/head.h"
 #include "lab/results/light_facts.h"

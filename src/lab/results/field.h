@@ -1,5 +1,5 @@
 #pragma once
-// How a field of results.json is declared. Each struct that the file holds lists its fields once:
+// How a field of results.json is declared. Each struct in the file lists its fields once:
 //
 //   struct Row {
 //     size_t acne = 0;
@@ -10,7 +10,7 @@
 //     }
 //   };
 //
-// From that list it is written and read back (results_file.h), shown by the table of a terminal and by the page, accepted
+// From that list it is written and read back (results_file.h), shown by the terminal's table and by the page, accepted
 // by --fail-if, and held against docs/results.md. A function in place of a member is written and not read.
 
 #include <functional>

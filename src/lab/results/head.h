@@ -1,5 +1,5 @@
 #pragma once
-// What the results file of every verb begins with: program, scene, camera.
+// The beginning of every verb's results.json: program, scene, camera.
 
 #include "lab/results/schema.h"
 

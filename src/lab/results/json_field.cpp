@@ -8,7 +8,7 @@ namespace gnomon {
 
 void JsonField::fail(const std::string& what) const {
   throw fileError(file_, fmt::format("{} {}", where_.empty() ? "its value" : where_, what),
-                  "write it anew with gnomon compare -o or gnomon fog -o");
+                  "write it again with gnomon compare -o or gnomon fog -o");
 }
 
 bool JsonField::has(const char* key) const {
@@ -24,7 +24,7 @@ JsonField JsonField::operator[](const char* key) const {
 }
 
 std::string JsonField::text() const {
-  if (!json_.is_string()) fail("must be a text");
+  if (!json_.is_string()) fail("must be a string");
   return json_.get<std::string>();
 }
 

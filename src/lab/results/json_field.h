@@ -1,5 +1,5 @@
 #pragma once
-// A field of a results.json that is read: it knows where it stands, so that a message can say which one is wrong.
+// A field of results.json while it is read: it knows its path, so that an error message can name it.
 
 #include "lab/results/schema.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A light as results.json tells it.
+// A light as results.json describes it.
 
 #include "lab/results/schema.h"
 

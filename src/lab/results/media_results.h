@@ -1,5 +1,5 @@
 #pragma once
-// What results.json holds of gnomon fog.
+// The results.json of gnomon fog, as a struct.
 
 #include "lab/results/head.h"
 #include "lab/results/light_facts.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Rows of gnomon fog: one integrator on one map, against the traced reference; and how it stands against the baseline.
+// Rows of gnomon fog: one integrator on one map, compared with the ray-traced reference and with ray marching.
 
 #include "lab/results/row.h"
 
@@ -24,7 +24,7 @@ struct MediaRow {
 
   static constexpr auto fields() {
     return std::tuple(
-        field("integrator", &MediaRow::integrator, {.says = "`runs`, `bits`, `popcount`, `march`"}),
+        field("integrator", &MediaRow::integrator, {.says = "its name, as `--integrators` has it"}),
         field("steps", &MediaRow::steps, {.says = "samples per view ray, or null"}),
         field("baseline", &MediaRow::isBaseline,
               {.says = "whether the other rows are compared with this one", .absent = Absent::Earlier}),

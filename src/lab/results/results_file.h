@@ -1,5 +1,5 @@
 #pragma once
-// results.json, written and read: docs/results.md, which a test holds against the declared fields.
+// Writes and reads results.json. docs/results.md describes it, and a test checks the two against each other.
 
 #include "lab/results/comparison.h"
 #include "lab/results/media_results.h"

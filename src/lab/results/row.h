@@ -1,5 +1,5 @@
 #pragma once
-// A row of a comparison: one method on one map through one filter, against the exact shadow.
+// A row of a comparison: one bias on one map with one filter, compared with the exact shadow.
 
 #include "lab/results/schema.h"
 
@@ -191,7 +191,8 @@ struct Row {
         field("tuning", &Row::tuning, {.says = "of a tuned row, else null; below"}),
         field("worst_acne", &Row::worstAcne, {.says = "the square of the picture with the most acne, or null; below"}),
         field("worst_leak", &Row::worstLeak, {.says = "likewise of leak"}),
-        field("command", &Row::command, {.says = "the command line that makes this row again", .absent = Absent::Earlier}),
+        field("command", &Row::command,
+              {.says = "the command line that makes this row again", .absent = Absent::Earlier}),
         field("pictures", &Row::pictures,
               {.says = "paths relative to results.json; below", .absent = Absent::Earlier}));
   }

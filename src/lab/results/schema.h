@@ -1,5 +1,5 @@
 #pragma once
-// The schema of results.json (docs/results.md), and what its parts share.
+// The schema version of results.json (docs/results.md), and helpers that its parts share.
 
 #include "lab/results/field.h"
 

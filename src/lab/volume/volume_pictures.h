@@ -1,6 +1,5 @@
 #pragma once
-// Pictures of a shadow volume: slices through its voxels, and its coordinates drawn over what the camera
-// sees.
+// Pictures of a shadow volume: slices through its voxels, and its coordinates over the camera's picture.
 
 #include "base/image.h"
 #include "vsv/check/dense_volume.h"

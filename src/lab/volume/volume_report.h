@@ -1,6 +1,5 @@
 #pragma once
-// What `gnomon vsv` found, as an aligned table for a terminal and as JSON (docs/volume_check.md describes
-// both).
+// The results of `gnomon vsv`, as a table for the terminal and as JSON (docs/volume_check.md describes both).
 
 #include "lab/volume/volume_validation.h"
 

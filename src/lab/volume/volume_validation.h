@@ -1,5 +1,5 @@
 #pragma once
-// A session's shadow volume, built on the GPU and checked on the CPU: the work behind `gnomon vsv`.
+// `gnomon vsv`: a shadow volume, built on the GPU and checked on the CPU.
 
 #include "lab/core/session.h"
 #include "lab/results/schema.h"
@@ -34,8 +34,8 @@ struct VolumeValidation {
 
 struct VolumeTimes {  // milliseconds of wall clock
   double fit = 0.0;
-  double build = 0.0,
-         bits = 0.0;  // all of it in one submission, and of its stages the bits alone in their own
+  double build = 0.0;  // all stages in one submission
+  double bits = 0.0;   // the bits alone, in a submission of their own
   double download = 0.0, grid = 0.0;
   double implied = 0.0, trace = 0.0, compareExact = 0.0, vdb = 0.0;
 };

@@ -1,6 +1,5 @@
 #pragma once
-// What the generated scenes share: adding materials, meshes and lights, and a hash for their small
-// irregularities.
+// What the generated scenes share: adding materials, meshes and lights, and a hash for their small irregularities.
 
 #include "scene/mesh_builder.h"
 #include "scene/scene.h"

@@ -226,8 +226,7 @@ void addPipes(Scene& scene, const Materials& m) {
   }
 }
 
-// A crate of boards: a core, and a frame of boards proud of it, each its own closed box that does not touch
-// others.
+// A crate of boards: a core, and a frame of boards proud of it, each its own closed box that does not touch others.
 void addCrate(Scene& scene, const Materials& m, const glm::dvec3& foot, double turn, double size) {
   MeshBuilder crate("crate", m.wood);
   crate.place(placed(foot, {0, 1, 0}, turn));

@@ -1,5 +1,4 @@
-// A lamp behind bars: long thin shadows that fan out over floor and walls, and shafts in a participating
-// medium.
+// A lamp behind bars: long thin shadows that fan out over floor and walls, and shafts in a participating medium.
 
 #include "scene/generate/compose.h"
 #include "scene/generate/scenes.h"

@@ -1,5 +1,4 @@
-// Weiskopf & Ertl, "Shadow Mapping Based on Dual Depth Layers", 2003: figures 5 and 6. Figure 7 is
-// factory.cpp.
+// Weiskopf & Ertl, "Shadow Mapping Based on Dual Depth Layers", 2003: figures 5 and 6. Figure 7 is factory.cpp.
 
 #include "scene/generate/compose.h"
 #include "scene/generate/scenes.h"

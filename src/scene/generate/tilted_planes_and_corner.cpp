@@ -10,17 +10,15 @@
 
 namespace gnomon {
 
-// Each tile is turned about its own centre until its normal makes the stated angle with the direction to the
-// light, towards the camera, which stands about 60 degrees off: so the camera sees the lit side of every
-// tile.
+// Each tile is turned about its own centre until its normal makes the stated angle with the direction to the light,
+// towards the camera, which stands about 60 degrees off: so the camera sees the lit side of every tile.
 //
 //   light *            normal = cos(angle) toLight + sin(angle) aside,
 //          \  . n      aside = toEye made perpendicular to toLight
 //           \/____ eye
 //
-// cos(angle) at any other point of the tile is (distance of the light from the plane) / (distance of the
-// light from the point), so a tile faces the light everywhere or nowhere: the last, at 88.5 degrees, still
-// faces it.
+// cos(angle) at any other point of the tile is (distance of the light from the plane) / (distance of the light from the
+// point), so a tile faces the light everywhere or nowhere: the last, at 88.5 degrees, still faces it.
 Scene makeTiltedPlanes() {
   Scene scene;
   scene.name = "tilted-planes";

@@ -1,6 +1,6 @@
 #pragma once
-// What Dou et al. 2014 print and do not mean, and the constant bias in their units: biases of one's own
-// (shadow/user_bias.h), embedded from src/lab/paper/errata/.
+// Dou et al. 2014's equations as misprinted, and a constant bias in their units, as user biases (shadow/user_bias.h)
+// that are embedded from src/lab/paper/errata/.
 
 namespace gnomon {
 
