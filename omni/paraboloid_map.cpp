@@ -54,7 +54,7 @@ constinit const ChoiceOption<ParaboloidRaster> kParaboloidRaster(
     {{ParaboloidRaster::Vertex, "vertex", "straight edges between projected vertices, which is inexact"},
      {ParaboloidRaster::Tessellated, "tessellated",
       "like vertex, with triangles cut until the edges are right to half a texel"},
-     {ParaboloidRaster::Exact, "exact", "each texel's ray decides"}});
+     {ParaboloidRaster::Exact, "exact", "one ray-triangle test a texel"}});
 
 namespace {
 

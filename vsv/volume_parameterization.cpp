@@ -44,7 +44,7 @@ constinit const ChoiceOption<VolumeSource> kVolumeSource(
     {.name = "vsv_source", .sentence = "where the shadow volume's occluders come from", .results = InResults::OwnRows},
     VolumeSource::Direct,
     {{VolumeSource::Resample, "resample", "columns are looked up in a cube map of side --map-size"},
-     {VolumeSource::Direct, "direct", "each column meets the scene itself"}});
+     {VolumeSource::Direct, "direct", "the scene itself, one ray-triangle test a column"}});
 
 constinit const ChoiceOption<VolumeFit> kVolumeFit(
     {.name = "vsv_fit", .sentence = "what the shadow volume covers", .results = InResults::OwnRows}, VolumeFit::Frustum,

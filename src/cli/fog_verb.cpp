@@ -236,8 +236,7 @@ void addMediumFlags(CLI::App& verb, FogFlags& flags) {
                   "generates some); default: none, a homogeneous medium");
   verb.add_option("--density-at", flags.densityAt,
                   "x,y,z: new centre of the density, metres; default: where the file places it");
-  verb.add_option("--density-scale", flags.densityScale,
-                  "scale scale scale scale factor of the density's size; default: 1");
+  verb.add_option("--density-scale", flags.densityScale, "scale factor of the density's size; default: 1");
   verb.add_option("--ambient", flags.ambient,
                   "ambient light: radiance of a white surface without any other light, cd/m^2")
       ->capture_default_str();
@@ -259,8 +258,6 @@ Run add(CLI::App* verb) {
   verb->add_flag("--no-cache", flags->noCache, "neither read nor write the cache of references");
   verb->add_option("--integrators", flags->integrators, integratorsHelp());
   verb->add_option("--steps", flags->steps, "samples along a view ray, for march; in a density, for every integrator")
-      ->capture_default_str();
-  verb->add_option("--march-map", flags->marchMap, "what a march looks shadows up in: " + marchMaps())
       ->capture_default_str();
   verb->add_option("--march-map", flags->marchMap, "shadow map for march: " + marchMaps())->capture_default_str();
   addMediumFlags(*verb, *flags);

@@ -59,7 +59,7 @@ Run add(CLI::App* verb) {
 }  // namespace
 
 Verb renderVerb() {
-  return {.name = "render", .sentence = "renders renders one picture of one configuration, PNG or EXR", .add = add};
+  return {.name = "render", .sentence = "renders one picture of one configuration, PNG or EXR", .add = add};
 }
 
 }  // namespace gnomon

@@ -10,14 +10,15 @@
 
 namespace gnomon {
 
-constinit const ChoiceOption<Warp> kWarp({.name = "warp",
-                                          .sentence = "shape the texels of spot and directional maps to the camera",
-                                          .results = InResults::EveryRow},
-                                         Warp::None,
-                                         {{Warp::None, "none", "even texels"},
-                                          {Warp::Psm, "psm", "perspective shadow maps"},
-                                          {Warp::Lispsm, "lispsm", "light space perspective"},
-                                          {Warp::Tsm, "tsm", "trapezoidal"}});
+constinit const ChoiceOption<Warp> kWarp(
+    {.name = "warp",
+     .sentence = "a warp that gives the texels of spot and directional maps to what is near the camera",
+     .results = InResults::EveryRow},
+    Warp::None,
+    {{Warp::None, "none", "no warp"},
+     {Warp::Psm, "psm", "perspective shadow maps"},
+     {Warp::Lispsm, "lispsm", "light space perspective shadow maps"},
+     {Warp::Tsm, "tsm", "trapezoidal shadow maps"}});
 
 namespace {
 

@@ -16,7 +16,7 @@ const std::vector<Filter>& filters() {
       {.id = glsl::kShadowFilterJitter4x4,
        .name = "jitter4x4",
        .tapCount = 16,
-       .sentence = "PCF, PCF, 16 jittered taps within 4 x 4 texels (Weiskopf & Ertl 2003)",
+       .sentence = "PCF, 16 jittered taps within 4 x 4 texels (Weiskopf & Ertl 2003)",
        .knobs = {{.name = "width",
                   .unit = Unit::Texels,
                   .lower = 0.0f,

@@ -93,7 +93,7 @@ TEST(Reflect, OtherSetsArraysAndKindsAreRefusedByName) {
   EXPECT_NE(refusal("layout(binding = 0) uniform sampler alone;\nlayout(binding = 1) uniform texture2D t;\n"
                     "layout(binding = 2, scalar) buffer B { vec4 v; };\n"
                     "void main() { v = textureLod(sampler2D(t, alone), vec2(0), 0); }\n")
-                .find("'alone' is of a kind"),
+                .find("'alone' has a type that Gnomon cannot bind"),
             std::string::npos);
 }
 

@@ -193,7 +193,7 @@ TEST_F(ReportTest, RanksByBiasErrorThenByAllWrongPixels) {
   const std::vector<std::string> edges =
       column(html, "data-v=\"(\\d+)\">[^<]*</td>\n<td class=\"n\" data-v=\"[^\"]*\">0\\.");
   EXPECT_EQ(edges, (std::vector<std::string>{"26", "21", "21", "28", "12"}));
-  EXPECT_NE(html.find("<a href=\"#row-1\">dual</a> errs least: <b>0.0000"), std::string::npos);
+  EXPECT_NE(html.find("<a href=\"#row-1\">dual</a> has the least bias error: <b>0.0000"), std::string::npos);
 }
 
 TEST_F(ReportTest, AFilteredRowIsHeldAgainstTheFilteredTruth) {
@@ -310,7 +310,7 @@ TEST_F(ReportTest, NamesTheFieldThatIsWrong) {
   EXPECT_NE(after([](Json& j) { j["camera"]["width"] = 0; }).find("camera must have a width"), std::string::npos);
   EXPECT_NE(after([](Json& j) { j["rows"][0]["worst_acne"]["size"] = 0; }).find("worst_acne.size"), std::string::npos);
   EXPECT_NE(after([](Json& j) { j["rows"][0]["worst_acne"]["x"] = 99999; }).find("at most 16384"), std::string::npos);
-  EXPECT_NE(after([](Json& j) { j["rows"][0]["pictures"]["labels"] = 3; }).find("pictures.labels must be a text"),
+  EXPECT_NE(after([](Json& j) { j["rows"][0]["pictures"]["labels"] = 3; }).find("pictures.labels must be a string"),
             std::string::npos);
   EXPECT_NE(after([](Json& j) { j["rows"][0]["agree"] = 1000000; }).find("rows[0].agree must be at most"),
             std::string::npos);
