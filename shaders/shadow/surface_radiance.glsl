@@ -11,6 +11,10 @@
 layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
 layout(scalar, binding = kBindNormals) readonly buffer Normals { vec3 normals[]; };
 
+// 0: no material of the scene has a texture. lavapipe runs a branch that no pixel takes as if all did, and this one is
+// a third of the pass: twelve powers and what they are of.
+layout(constant_id = 8) const int kTextured = 1;
+
 vec3 linearFromSrgb(vec3 c) {
   return mix(c * (1.0f / 12.92f), pow((c + 0.055f) * (1.0f / 1.055f), vec3(2.4f)), greaterThan(c, vec3(0.04045f)));
 }
@@ -38,13 +42,14 @@ SurfaceLight shadeSurface(ivec2 pixel, PrimitiveId id, float visible) {
   uvec3 v = triangles[id.triangle];
   vec3 b = surface.barycentric;
   vec3 albedo = material.baseColor.xyz;
-  if (material.texture >= 0) {
+  if (kTextured == 1 && material.texture >= 0) {
     vec2 uv = uvs[v.x] * b.x + uvs[v.y] * b.y + uvs[v.z] * b.z;
     albedo *= textureColorAt(material.texture, uv);
   }
   // Interpolated normals for looks only; shadows know the triangle's own.
   vec3 normalM = normals[v.x] * b.x + normals[v.y] * b.y + normals[v.z] * b.z;
-  vec3 normal = normalize(transpose(inverse(mat3(instance.worldFromMesh))) * normalM);
+  if (kInstanced == 1) normalM = transpose(inverse(mat3(instance.worldFromMesh))) * normalM;
+  vec3 normal = normalize(normalM);
   vec3 toEye = normalize(shade.camera.eyeW - surface.position);
   if (dot(normal, toEye) < 0.0f && dot(surface.normal, toEye) * dot(surface.normal, normal) < 0.0f) normal = -normal;
 

@@ -1,7 +1,11 @@
 #include "base/image.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/image_codec.h"
+#include "base/image_png.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +14,7 @@
 namespace gnomon {
 
 void writePng(const std::filesystem::path& path, const Image8& image) {
-  imageCodec().writePng(path, image);
+  writeTextFile(path, encodePng(image));
 }
 
 void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames) {
@@ -54,10 +58,10 @@ float linearFromSrgb(float srgb) {
 
 Image8 toSrgb8(const ImageF& linear) {
   Image8 out(linear.width, linear.height, linear.channels);
-  for (size_t i = 0; i < out.values.size(); ++i) {
+  tbb::parallel_for(size_t{0}, out.values.size(), [&](size_t i) {
     const float value = srgbFromLinear(std::clamp(linear.values[i], 0.0f, 1.0f));
     out.values[i] = static_cast<uint8_t>(std::lround(255.0f * value));
-  }
+  });
   return out;
 }
 

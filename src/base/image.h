@@ -1,6 +1,6 @@
 #pragma once
-// Image files through OpenImageIO: EXR for data (32-bit float, linear), PNG for viewing (8 bits). Rows run from top to
-// bottom, channels are interleaved.
+// Image files: EXR for data (32-bit float, linear), PNG for viewing (8 bits). PNG is written by image_png.h, all else
+// goes through OpenImageIO. Rows run from top to bottom, channels are interleaved.
 
 #include <cstdint>
 #include <filesystem>
@@ -45,8 +45,8 @@ Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what);
 // A JPEG file in memory, of 1 or 3 channels; `quality` 1..100. Throws WorldError.
 std::string encodeJpeg(const Image8& image, int quality);
 
-// Begins on another thread to load what the functions above need (base/image_codec.h): for whom pictures are
-// the last thing to come. Without it the first of them waits.
+// Begins on another thread to load what the functions above but writePng need (base/image_codec.h): for whom pictures
+// are the last thing to come. Without it the first of them waits.
 void preloadImages();
 
 // RFC 4648, with padding: for data URIs.

@@ -1,7 +1,7 @@
 #pragma once
-// The part of image.h that calls OpenImageIO, in a separate library that is loaded when the first image is read or
-// written: Debian's OpenImageIO depends on 250 others, and loading them takes as long as rendering a small picture (0.2
-// s). For image.cpp only.
+// The part of image.h that calls OpenImageIO, in a separate library that is loaded when the first image is read, or
+// written as anything but PNG (image_png.h): Debian's OpenImageIO depends on 250 others, and loading them takes as long
+// as rendering a small picture (0.2 s). For image.cpp only.
 
 #include "base/image.h"
 
@@ -9,7 +9,6 @@ namespace gnomon {
 
 // As the functions of these names in image.h.
 struct ImageCodec {
-  void (*writePng)(const std::filesystem::path& path, const Image8& image);
   void (*writeExr)(const std::filesystem::path& path, const ImageF& image,
                    const std::vector<std::string>& channelNames);
   ImageF (*readImage)(const std::filesystem::path& path);

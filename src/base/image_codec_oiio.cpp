@@ -18,19 +18,10 @@ void writeImage(const std::filesystem::path& path, const OIIO::ImageSpec& spec, 
                 const void* values) {
   writeAtomically(path, [&](const std::filesystem::path& aside) {
     auto out = OIIO::ImageOutput::create(aside.string());
-    if (!out) throw fileError(path.string(), "no writer for this kind of image", "use .png or .exr");
+    if (!out) throw fileError(path.string(), "no writer for this kind of image", "use .exr");
     if (!out->open(aside.string(), spec) || !out->write_image(format, values) || !out->close())
       throw fileError(path.string(), "cannot be written", out->geterror());
   });
-}
-
-void writePngFile(const std::filesystem::path& path, const Image8& image) {
-  GNOMON_CHECK_LT(0, image.width);
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("png:compressionLevel", 4);
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  writeImage(path, spec, OIIO::TypeDesc::UINT8, image.values.data());
 }
 
 void writeExrFile(const std::filesystem::path& path, const ImageF& image,
@@ -104,7 +95,6 @@ std::string base64Text(std::string_view bytes) {
 }  // namespace gnomon
 
 extern "C" __attribute__((visibility("default"))) const gnomon::ImageCodec gnomonImageCodec = {
-    .writePng = gnomon::writePngFile,
     .writeExr = gnomon::writeExrFile,
     .readImage = gnomon::readImageFile,
     .decodeImage = gnomon::decodeImageBytes,

@@ -98,7 +98,10 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
   std::ranges::stable_sort(buffers.draws, {}, &Draw::masked);
 
   std::vector<glsl::SceneMaterial> materials;
-  for (const Material& material : scene.materials) materials.push_back(toGpu(material));
+  for (const Material& material : scene.materials) {
+    materials.push_back(toGpu(material));
+    buffers.textured = buffers.textured || material.baseColorTexture >= 0;
+  }
 
   buffers.positions = gpu::createBufferWith(device, "positions", positions);
   buffers.normals = gpu::createBufferWith(device, "normals", normals);

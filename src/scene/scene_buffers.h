@@ -38,6 +38,7 @@ struct SceneBuffers {
   std::vector<Bounds> partBoundsW;       // metres
   std::vector<uint32_t> firstTriangles;  // one an instance, in the array of triangles
   bool instanced = false;                // some matrix is not the identity
+  bool textured = false;                 // some material has a texture
 };
 
 SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene);

@@ -101,13 +101,15 @@ void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, 
 }
 
 RadiancePass::RadiancePass(const gpu::Device& device, int width, int height)
-    : program_(device, {"shadow/shade_radiance.comp.glsl", {}}),
+    : programs_(device),
       groupCount_(groupsFor(width, height)),
       radiance_(device, {.name = "radiance", .size = pixelBytes(width, height, sizeof(glm::vec3))}) {}
 
 void RadiancePass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                           const gpu::Buffer& shadeUniforms, const gpu::Buffer& visibility) const {
-  commands.dispatch(program_, groupCount_, {},
+  commands.dispatch(programs_.get("shadow/shade_radiance.comp.glsl", {{.id = 4, .value = scene.instanced ? 1 : 0},
+                                                                      {.id = 8, .value = scene.textured ? 1 : 0}}),
+                    groupCount_, {},
                     {{glsl::kBindPositions, scene.positions},
                      {glsl::kBindTriangles, scene.triangles},
                      {glsl::kBindInstances, scene.instances},

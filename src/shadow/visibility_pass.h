@@ -66,7 +66,7 @@ class RadiancePass {
   const gpu::Buffer& radiance() const { return radiance_; }  // vec3 a pixel, tightly packed
 
  private:
-  gpu::ComputeProgram program_;
+  gpu::ComputePrograms programs_;
   glm::uvec3 groupCount_;
   gpu::Buffer radiance_;
 };

@@ -52,7 +52,7 @@ LabelImage labelPixels(const Tracer& tracer, const LightModel& light, const Rece
   const size_t pixelCount = receivers.states.size();
   GNOMON_CHECK_EQ(verdicts.size(), pixelCount);
   GNOMON_CHECK_EQ(truth.lit.size(), pixelCount);
-  const LightRays rays(tracer.scene(), light);
+  const LightRays rays(tracer.boundsW(), light);
   LabelImage image;
   image.labels.assign(pixelCount, Label::NotScored);
   tbb::parallel_for(size_t{0}, pixelCount, [&](size_t pixel) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <tbb/parallel_for.h>
 
@@ -13,31 +14,61 @@ namespace gnomon {
 
 namespace {
 
+double acrossOf(const glsl::CameraView& camera, int x) {
+  return (2.0 * (x + 0.5) / camera.width - 1.0) * static_cast<double>(camera.tanHalfX);
+}
+
+double upOf(const glsl::CameraView& camera, int y) {
+  return (1.0 - 2.0 * (y + 0.5) / camera.height) * static_cast<double>(camera.tanHalfY);
+}
+
 // Metres from a plane to the light, positive on the normal's side; of a directional light, only the sign means much.
 double sideOfLight(const LightModel& light, const glm::dvec3& pointW, const glm::dvec3& normalW) {
   if (light.type == LightType::Directional) return -glm::dot(normalW, light.directionW);
   return glm::dot(normalW, light.positionW - pointW);
 }
 
-PixelState classify(const LightModel& light, const glm::dvec3& eyeW, const glm::dvec3& cornerW, SurfaceSample& sample) {
-  const double eyeSide = glm::dot(sample.normalW, eyeW - cornerW);
-  const double lightSide = sideOfLight(light, cornerW, sample.normalW);
-  if (lightSide < 0.0) sample.normalW = -sample.normalW;
-  if (eyeSide == 0.0 || lightSide == 0.0 || (eyeSide > 0.0) != (lightSide > 0.0)) return PixelState::FacingAway;
-  if (light.type == LightType::Spot) {
-    const glm::dvec3 toPoint = sample.positionW - light.positionW;
-    const double cosine = glm::dot(glm::normalize(toPoint), light.directionW);
-    if (cosine < std::cos(light.outerConeRad)) return PixelState::OutsideCone;
+// What all pixels that see one triangle have in common.
+struct SeenTriangle {
+  Primitive primitive;
+  Triangle triangle;
+  glm::dvec3 normalW;  // unit, turned to the light's side
+  PixelState state;    // but for a spot light's cone
+
+  SeenTriangle(const Primitive& seen, const glm::dvec3 corners[3], const LightModel& light, const glm::dvec3& eyeW)
+      : primitive(seen), triangle(corners), normalW(triangle.normal()) {
+    const double eyeSide = glm::dot(normalW, eyeW - corners[0]);
+    const double lightSide = sideOfLight(light, corners[0], normalW);
+    const bool away = eyeSide == 0.0 || lightSide == 0.0 || (eyeSide > 0.0) != (lightSide > 0.0);
+    state = away ? PixelState::FacingAway : PixelState::Scored;
+    if (lightSide < 0.0) normalW = -normalW;
   }
-  return PixelState::Scored;
+};
+
+bool isInCone(const LightModel& light, double cosOuterCone, const glm::dvec3& pointW) {
+  return !(glm::dot(glm::normalize(pointW - light.positionW), light.directionW) < cosOuterCone);
 }
+
+// pixelRay's directions before they are made unit: what a column and a row bring.
+struct PixelDirections {
+  std::vector<glm::dvec3> columns;
+  std::vector<glm::dvec3> rows;
+
+  explicit PixelDirections(const glsl::CameraView& camera) {
+    for (int x = 0; x < camera.width; ++x)
+      columns.push_back(glm::dvec3(camera.forwardW) + glm::dvec3(camera.rightW) * acrossOf(camera, x));
+    for (int y = 0; y < camera.height; ++y) rows.push_back(glm::dvec3(camera.upW) * upOf(camera, y));
+  }
+  RayD ray(const glm::dvec3& eyeW, int x, int y) const {
+    return {eyeW, glm::normalize(columns[static_cast<size_t>(x)] + rows[static_cast<size_t>(y)])};
+  }
+};
 
 }  // namespace
 
 RayD pixelRay(const glsl::CameraView& camera, int x, int y) {
-  const double sx = (2.0 * (x + 0.5) / camera.width - 1.0) * static_cast<double>(camera.tanHalfX);
-  const double sy = (1.0 - 2.0 * (y + 0.5) / camera.height) * static_cast<double>(camera.tanHalfY);
-  const glm::dvec3 dir = glm::dvec3(camera.forwardW) + glm::dvec3(camera.rightW) * sx + glm::dvec3(camera.upW) * sy;
+  const glm::dvec3 dir = glm::dvec3(camera.forwardW) + glm::dvec3(camera.rightW) * acrossOf(camera, x) +
+                         glm::dvec3(camera.upW) * upOf(camera, y);
   return {glm::dvec3(camera.eyeW), glm::normalize(dir)};
 }
 
@@ -46,21 +77,35 @@ Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera,
   const size_t pixelCount = static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height);
   GNOMON_CHECK_EQ(ids.size(), pixelCount);
   Receivers receivers{.width = camera.width, .height = camera.height};
-  receivers.states.assign(pixelCount, PixelState::Empty);
+  receivers.states.resize(pixelCount);
   receivers.samples.resize(pixelCount);
+  const glm::dvec3 eyeW(camera.eyeW);
+  const PixelDirections directions(camera);
+  const double cosOuterCone = std::cos(light.outerConeRad);
   tbb::parallel_for(0, camera.height, [&](int y) {
+    std::optional<SeenTriangle> seen;
     for (int x = 0; x < camera.width; ++x) {
       const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x);
-      if (ids[pixel].instancePlusOne == 0) continue;
       SurfaceSample& sample = receivers.samples[pixel];
-      sample.primitive = {ids[pixel].instancePlusOne - 1, ids[pixel].triangle};
-      glm::dvec3 corners[3];
-      tracer.corners(sample.primitive, corners);
-      const RayD ray = pixelRay(camera, x, y);
-      const TriangleMeeting meeting = meetTriangle(ray, corners);
-      sample.positionW = meeting.edgeOn ? corners[0] : meeting.positionW;
-      sample.normalW = triangleNormal(corners);
-      receivers.states[pixel] = classify(light, ray.origin, corners[0], sample);
+      if (ids[pixel].instancePlusOne == 0) {
+        sample = {};
+        continue;
+      }
+      const Primitive primitive{ids[pixel].instancePlusOne - 1, ids[pixel].triangle};
+      if (!seen || !(seen->primitive == primitive)) {
+        glm::dvec3 corners[3];
+        tracer.corners(primitive, corners);
+        seen.emplace(primitive, corners, light, eyeW);
+      }
+      const TriangleMeeting meeting = seen->triangle.meet(directions.ray(eyeW, x, y));
+      sample.positionW = meeting.edgeOn ? seen->triangle.corners[0] : meeting.positionW;
+      sample.normalW = seen->normalW;
+      sample.primitive = primitive;
+      PixelState state = seen->state;
+      if (state == PixelState::Scored && light.type == LightType::Spot &&
+          !isInCone(light, cosOuterCone, sample.positionW))
+        state = PixelState::OutsideCone;
+      receivers.states[pixel] = state;
     }
   });
   const auto count = [&](PixelState state) {

@@ -4,6 +4,7 @@
 
 #include "scene/light_model.h"
 #include "scene/scene.h"
+#include "truth/per_pixel.h"
 #include "truth/tracer.h"
 
 #include "shared/scene.glsl"
@@ -29,8 +30,8 @@ struct SurfaceSample {
 struct Receivers {
   int width = 0;
   int height = 0;
-  std::vector<PixelState> states;      // one a pixel, rows from the top
-  std::vector<SurfaceSample> samples;  // one a pixel; meaningless where Empty
+  std::vector<PixelState> states;   // one a pixel, rows from the top
+  PerPixel<SurfaceSample> samples;  // one a pixel; meaningless where Empty
   size_t scored = 0;
   size_t facingAway = 0;
   size_t outsideCone = 0;

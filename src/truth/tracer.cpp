@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace gnomon {
@@ -57,11 +58,11 @@ Primitive hitPrimitive(RTCHitN* hit, unsigned n, unsigned i) {
 }
 
 // Where a float hit (u, v) lies in double. An edge-on triangle has no meeting point: Embree's stands in.
-TriangleMeeting meetHit(const RayD& ray, const glm::dvec3 corners[3], double u, double v) {
-  TriangleMeeting meeting = meetTriangle(ray, corners);
+TriangleMeeting meetHit(const RayD& ray, const Triangle& triangle, double u, double v) {
+  TriangleMeeting meeting = triangle.meet(ray);
   if (!meeting.edgeOn) return meeting;
   meeting.weights = {1.0 - u - v, u, v};
-  meeting.positionW = corners[0] * meeting.weights.x + corners[1] * u + corners[2] * v;
+  meeting.positionW = triangle.corners[0] * meeting.weights.x + triangle.corners[1] * u + triangle.corners[2] * v;
   meeting.distance = glm::dot(meeting.positionW - ray.origin, ray.dir);
   return meeting;
 }
@@ -89,7 +90,8 @@ struct Tracer::Impl {
   std::vector<const Mesh*> meshes;     // one an instance
   std::vector<OwnedScene> meshScenes;  // one a mesh, of shared meshes only
   OwnedScene top;
-  glm::dvec3 center{0.0};  // of the scene's bounds
+  Bounds boundsW;
+  glm::dvec3 center{0.0};  // of the bounds
   double radius = 0.0;     // metres, a sphere around them
 
   explicit Impl(const Scene& s) : scene(s) {}
@@ -100,7 +102,8 @@ struct Tracer::Impl {
   void corners(const Primitive& primitive, glm::dvec3 out[3]) const;
   bool isHole(const Primitive& primitive, const glm::dvec3& weights) const;
   glm::vec3 floatOrigin(const RayD& ray, double distance) const;
-  RTCRay floatRay(const RayD& ray, double distance, const glm::dvec3& end, unsigned id) const;
+  glm::vec3 floatSpan(const RayD& ray, double distance, const glm::dvec3& end, glm::vec3& origin) const;
+  void putRay(const RayD& ray, double distance, const glm::dvec3& end, RTCRay16& rays, unsigned id) const;
   void traceOne(const ShadowSegment& segment, double enough, double& height) const;
   void tracePacket(std::span<const ShadowSegment> segments, double enough, double* heights) const;
   void tracePoints(const glm::dvec3& lightW, std::span<const glm::dvec3> pointsW, uint8_t* blocked) const;
@@ -118,7 +121,7 @@ void Tracer::Impl::passHoles(const RTCFilterFunctionNArguments* args) {
     glm::dvec3 at[3];
     query->impl->corners(primitive, at);
     const TriangleMeeting meeting =
-        meetHit(*query->ray, at, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
+        meetHit(*query->ray, Triangle(at), RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
     if (query->impl->isHole(primitive, meeting.weights)) args->valid[i] = 0;
   }
 }
@@ -127,6 +130,8 @@ void Tracer::Impl::passHoles(const RTCFilterFunctionNArguments* args) {
 void Tracer::Impl::judgeBlocker(const RTCFilterFunctionNArguments* args) {
   const auto* query = reinterpret_cast<const Query*>(args->context);
   if (query->pointsW != nullptr) return judgeBeforePoint(*query, args);
+  std::optional<Triangle> triangle;  // of a packet's rays most meet the same one
+  Primitive last;
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     args->valid[i] = 0;
@@ -134,10 +139,14 @@ void Tracer::Impl::judgeBlocker(const RTCFilterFunctionNArguments* args) {
     const ShadowSegment& segment = query->segments[id];
     const Primitive primitive = hitPrimitive(args->hit, args->N, i);
     if (primitive == segment.own) continue;
-    glm::dvec3 at[3];
-    query->impl->corners(primitive, at);
+    if (!triangle || !(primitive == last)) {
+      glm::dvec3 at[3];
+      query->impl->corners(primitive, at);
+      triangle.emplace(at);
+      last = primitive;
+    }
     const TriangleMeeting meeting =
-        meetHit(segment.ray, at, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
+        meetHit(segment.ray, *triangle, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
     const double height = glm::dot(segment.planeNormal, meeting.positionW - query->receivers[id]);
     if (!(height > query->heights[id]) || query->impl->isHole(primitive, meeting.weights)) continue;
     query->heights[id] = height;
@@ -158,7 +167,7 @@ void Tracer::Impl::judgeBeforePoint(const Query& query, const RTCFilterFunctionN
     glm::dvec3 at[3];
     query.impl->corners(primitive, at);
     const TriangleMeeting meeting =
-        meetHit(ray, at, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
+        meetHit(ray, Triangle(at), RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
     if (!(meeting.distance < query.distances[id]) || query.impl->isHole(primitive, meeting.weights)) args->valid[i] = 0;
   }
 }
@@ -218,7 +227,7 @@ void Tracer::Impl::attachInstance(RTCScene mesh, const glm::mat4& worldFromMesh,
   throwIfFailed();
 }
 
-void Tracer::Impl::corners(const Primitive& primitive, glm::dvec3 out[3]) const {
+inline void Tracer::Impl::corners(const Primitive& primitive, glm::dvec3 out[3]) const {
   const Mesh& mesh = *meshes[primitive.instance];
   const InstanceFrame& frame = frames[primitive.instance];
   for (int k = 0; k < 3; ++k) {
@@ -240,7 +249,7 @@ bool Tracer::Impl::isHole(const Primitive& primitive, const glm::dvec3& weights)
 
 // A light far outside the scene would cost precision: floats along the ray are as coarse as the ray is long.
 // Its rays start where they come near the scene instead.
-glm::vec3 Tracer::Impl::floatOrigin(const RayD& ray, double distance) const {
+inline glm::vec3 Tracer::Impl::floatOrigin(const RayD& ray, double distance) const {
   const double toCenter = glm::dot(center - ray.origin, ray.dir);
   const double skipped = toCenter - 2.0 * radius;
   return glm::vec3(skipped > 0.0 && skipped < distance ? ray.origin + ray.dir * skipped : ray.origin);
@@ -248,47 +257,48 @@ glm::vec3 Tracer::Impl::floatOrigin(const RayD& ray, double distance) const {
 
 // The direction is the whole stretch from the rounded origin to the receiver, so that the rounding of the
 // origin is made good at the end that matters, and distances are shares of the segment.
-RTCRay Tracer::Impl::floatRay(const RayD& ray, double distance, const glm::dvec3& end, unsigned id) const {
+inline glm::vec3 Tracer::Impl::floatSpan(const RayD& ray, double distance, const glm::dvec3& end,
+                                         glm::vec3& origin) const {
   GNOMON_CHECK_LT(0.0, distance);
-  const glm::vec3 origin = floatOrigin(ray, distance);
-  const glm::vec3 dir(end - glm::dvec3(origin));
-  return {.org_x = origin.x,
-          .org_y = origin.y,
-          .org_z = origin.z,
-          .tnear = 0.0f,
-          .dir_x = dir.x,
-          .dir_y = dir.y,
-          .dir_z = dir.z,
-          .time = 0.0f,
-          .tfar = 1.0f + kOvershoot,
-          .mask = ~0u,
-          .id = id,
-          .flags = 0};
+  origin = floatOrigin(ray, distance);
+  return glm::vec3(end - glm::dvec3(origin));
 }
 
 void Tracer::Impl::traceOne(const ShadowSegment& segment, double enough, double& height) const {
   const glm::dvec3 receiver = segment.ray.origin + segment.ray.dir * segment.distance;
   Query query{.impl = this, .segments = &segment, .receivers = &receiver, .heights = &height, .enough = enough};
   rtcInitIntersectContext(&query.rtc);
-  RTCRay ray = floatRay(segment.ray, segment.distance, receiver, 0);
+  glm::vec3 origin;
+  const glm::vec3 dir = floatSpan(segment.ray, segment.distance, receiver, origin);
+  RTCRay ray = {.org_x = origin.x,
+                .org_y = origin.y,
+                .org_z = origin.z,
+                .tnear = 0.0f,
+                .dir_x = dir.x,
+                .dir_y = dir.y,
+                .dir_z = dir.z,
+                .time = 0.0f,
+                .tfar = 1.0f + kOvershoot,
+                .mask = ~0u,
+                .id = 0,
+                .flags = 0};
   rtcOccluded1(top.get(), &query.rtc, &ray);
 }
 
-namespace {
-
-void putRay(const RTCRay& ray, RTCRay16& rays, unsigned i) {
-  rays.org_x[i] = ray.org_x;
-  rays.org_y[i] = ray.org_y;
-  rays.org_z[i] = ray.org_z;
-  rays.dir_x[i] = ray.dir_x;
-  rays.dir_y[i] = ray.dir_y;
-  rays.dir_z[i] = ray.dir_z;
-  rays.tfar[i] = ray.tfar;
-  rays.mask[i] = ray.mask;
-  rays.id[i] = ray.id;
+inline void Tracer::Impl::putRay(const RayD& ray, double distance, const glm::dvec3& end, RTCRay16& rays,
+                                 unsigned id) const {
+  glm::vec3 origin;
+  const glm::vec3 dir = floatSpan(ray, distance, end, origin);
+  rays.org_x[id] = origin.x;
+  rays.org_y[id] = origin.y;
+  rays.org_z[id] = origin.z;
+  rays.dir_x[id] = dir.x;
+  rays.dir_y[id] = dir.y;
+  rays.dir_z[id] = dir.z;
+  rays.tfar[id] = 1.0f + kOvershoot;
+  rays.mask[id] = ~0u;
+  rays.id[id] = id;
 }
-
-}  // namespace
 
 // Not flagged as coherent: with instances in the scene Embree 3.13.5's coherent packet path was seen not to return.
 void Tracer::Impl::tracePacket(std::span<const ShadowSegment> segments, double enough, double* heights) const {
@@ -300,7 +310,7 @@ void Tracer::Impl::tracePacket(std::span<const ShadowSegment> segments, double e
   for (unsigned i = 0; i < segments.size(); ++i) {
     receivers[i] = segments[i].ray.origin + segments[i].ray.dir * segments[i].distance;
     valid[i] = -1;
-    putRay(floatRay(segments[i].ray, segments[i].distance, receivers[i], i), rays, i);
+    putRay(segments[i].ray, segments[i].distance, receivers[i], rays, i);
   }
   rtcOccluded16(valid, top.get(), &query.rtc, &rays);
 }
@@ -315,7 +325,7 @@ void Tracer::Impl::tracePoints(const glm::dvec3& lightW, std::span<const glm::dv
     const glm::dvec3 towards = pointsW[i] - lightW;
     distances[i] = glm::length(towards);
     valid[i] = -1;
-    putRay(floatRay({lightW, towards / distances[i]}, distances[i], pointsW[i], i), rays, i);
+    putRay({lightW, towards / distances[i]}, distances[i], pointsW[i], rays, i);
   }
   rtcOccluded16(valid, top.get(), &query.rtc, &rays);
   // Embree marks an occluded ray by a tfar of -infinity.
@@ -327,9 +337,9 @@ Tracer::Tracer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
   impl.device.reset(rtcNewDevice(nullptr));
   if (!impl.device) throw WorldError("Embree: cannot create a device; check the installation of libembree3");
   impl.top = impl.newScene();
-  const Bounds bounds = computeBounds(scene);
-  impl.center = glm::dvec3(bounds.center());
-  impl.radius = 0.5 * static_cast<double>(bounds.diagonal());
+  impl.boundsW = computeBounds(scene);
+  impl.center = glm::dvec3(impl.boundsW.center());
+  impl.radius = 0.5 * static_cast<double>(impl.boundsW.diagonal());
 
   std::vector<uint32_t> uses(scene.meshes.size(), 0);
   for (const Instance& instance : scene.instances) {
@@ -367,6 +377,10 @@ const Scene& Tracer::scene() const {
   return impl_->scene;
 }
 
+const Bounds& Tracer::boundsW() const {
+  return impl_->boundsW;
+}
+
 std::optional<SurfaceHit> Tracer::firstHit(const RayD& ray) const {
   Impl::Query query{.impl = impl_.get(), .ray = &ray};
   rtcInitIntersectContext(&query.rtc);
@@ -394,8 +408,9 @@ std::optional<SurfaceHit> Tracer::firstHit(const RayD& ray) const {
                    found.hit.primID};
   glm::dvec3 at[3];
   impl_->corners(hit.primitive, at);
-  hit.distance = meetHit(ray, at, found.hit.u, found.hit.v).distance;
-  hit.normalW = triangleNormal(at);
+  const Triangle triangle(at);
+  hit.distance = meetHit(ray, triangle, found.hit.u, found.hit.v).distance;
+  hit.normalW = triangle.normal();
   return hit;
 }
 

@@ -54,6 +54,7 @@ class Tracer {
   Tracer& operator=(const Tracer&) = delete;
 
   const Scene& scene() const;
+  const Bounds& boundsW() const;  // of the scene, metres
 
   // Nearest surface along the ray, or none.
   std::optional<SurfaceHit> firstHit(const RayD& ray) const;

@@ -23,6 +23,7 @@ namespace gnomon {
 // is halved is a real surface nearer than 8 ulps to another, or a sliver.
 inline constexpr double kEndMarginUlps = 8.0;
 double endMargin(const Scene& scene);
+double endMargin(const Bounds& sceneW);
 
 struct Truth {
   std::vector<uint8_t> lit;  // one a pixel: 1 lit, 0 in shadow or not scored
@@ -42,6 +43,7 @@ struct LightRay {
 class LightRays {
  public:
   LightRays(const Scene& scene, const LightModel& light);
+  LightRays(const Bounds& sceneW, const LightModel& light);
   LightRay towards(const glm::dvec3& pointW) const;
   // The same line as `ray`, with its origin moved to where rays towards points start.
   RayD normalized(const RayD& ray) const;
@@ -51,6 +53,16 @@ class LightRays {
   glm::dvec3 centerW_{0.0};
   double startOffset_ = 0.0;  // metres from the centre's plane, directional lights
 };
+
+inline LightRay LightRays::towards(const glm::dvec3& pointW) const {
+  if (light_.type == LightType::Directional) {
+    const double distance = glm::dot(pointW - centerW_, light_.directionW) + startOffset_;
+    return {{pointW - light_.directionW * distance, light_.directionW}, distance};
+  }
+  const glm::dvec3 toPoint = pointW - light_.positionW;
+  const double distance = glm::length(toPoint);
+  return {{light_.positionW, toPoint / distance}, distance};
+}
 
 // All cores; deterministic.
 Truth computeTruth(const Tracer& tracer, const LightModel& light, const Receivers& receivers);

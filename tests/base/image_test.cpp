@@ -2,13 +2,16 @@
 #include "base/image.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/image_png.h"
 #include "tests/base/temporary_folder.h"
 
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <random>
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 namespace gnomon {
 namespace {
@@ -45,6 +48,33 @@ TEST_F(ImageTest, PngKeepsEveryByteAndTheSameImageGivesTheSameFile) {
   const Image8 back = decodeImage(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), "a.png");
   for (int i = 0; i < 256; ++i)
     for (int c = 0; c < 3; ++c) EXPECT_EQ(back.values[4 * i + c], image.values[3 * i + c]);
+}
+
+// The standard's sums are part of what is checked: a decoder refuses a stream whose sum is wrong.
+TEST_F(ImageTest, PngOfManyBandsComesBackWithAnyChannelsAndAnyThreads) {
+  for (const int channels : {1, 3, 4}) {
+    Image8 image(700, 1100, channels);  // 770 kB at least: two bands and more
+    std::mt19937 random(static_cast<unsigned>(channels));
+    for (uint8_t& value : image.values) value = static_cast<uint8_t>(random() % 3);
+    const std::string bytes = encodePng(image);
+    tbb::task_arena alone(1);
+    EXPECT_EQ(alone.execute([&] { return encodePng(image); }), bytes);
+    EXPECT_LT(bytes.size(), image.values.size() / 2);
+    const Image8 back = decodeImage(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), "many.png");
+    ASSERT_EQ(back.width, image.width);
+    ASSERT_EQ(back.height, image.height);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        for (int c = 0; c < 4; ++c) {
+          const int expected = c == 3 && channels < 4 ? 255 : image.at(x, y)[channels == 1 ? 0 : c];
+          ASSERT_EQ(back.at(x, y)[c], expected) << x << " " << y << " " << c;
+        }
+    for (const size_t damaged : {bytes.size() - 20, bytes.size() / 2}) {
+      std::string bad = bytes;
+      bad[damaged] = static_cast<char>(bad[damaged] ^ 0x10);
+      EXPECT_THROW(decodeImage(reinterpret_cast<const uint8_t*>(bad.data()), bad.size(), "bad.png"), WorldError);
+    }
+  }
 }
 
 TEST_F(ImageTest, GarbageIsRefusedByName) {

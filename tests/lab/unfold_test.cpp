@@ -3,6 +3,8 @@
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -64,6 +66,38 @@ TEST(Unfold, SolidAnglesOfACubeAreTheSphere) {
   EXPECT_NEAR(angles.sum, 4.0 * std::numbers::pi, 1e-4);
   // A texel at a corner is sqrt(3) as far and seen as obliquely: 3 sqrt(3) = 5.196 times smaller than at the middle.
   EXPECT_NEAR(angles.largest / angles.smallest, 3.0 * std::sqrt(3.0), 0.15);
+}
+
+// To the bit: an estimate may only spare what is neither.
+TEST(Unfold, TheSmallestAndTheLargestAngleAreThoseOfAllTexels) {
+  const auto triangle = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    return 2.0 *
+           std::atan2(std::abs(glm::dot(a, glm::cross(b, c))), 1.0 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
+  };
+  for (const FittedMap& fitted :
+       {cube(3), cube(75),
+        makeParaboloidMap(glm::dvec3(0.0), {0.3, -1, 0.2}, ParaboloidRaster::Exact, 0.1, 10.0, 90, 10.0f)}) {
+    const int side = fitted.map.side;
+    SolidAngles expected{.smallest = 1e30};
+    for (int layer = 0; layer < fitted.map.layerCount; ++layer)
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+          if (!glsl::mapHoldsTexel(fitted.map, layer, {x, y})) continue;
+          std::array<glm::dvec3, 4> at;
+          for (int i = 0; i < 4; ++i) {
+            const glm::vec2 uv = glm::vec2(x + (i & 1), y + (i >> 1)) / static_cast<float>(side);
+            at[static_cast<size_t>(i)] = glm::normalize(glm::dvec3(glsl::mapTexelRay(fitted.map, layer, uv).dir));
+          }
+          const double angle = triangle(at[0], at[1], at[2]) + triangle(at[1], at[2], at[3]);
+          expected.smallest = std::min(expected.smallest, angle);
+          expected.largest = std::max(expected.largest, angle);
+          expected.sum += angle;
+        }
+    const SolidAngles angles = *computeSolidAngles(fitted);
+    EXPECT_EQ(angles.smallest, expected.smallest) << side;
+    EXPECT_EQ(angles.largest, expected.largest) << side;
+    EXPECT_NEAR(angles.sum, expected.sum, 1e-7 * expected.sum) << side;
+  }
 }
 
 TEST(Unfold, SolidAnglesOfAParaboloidAreTheSphereAndItsRim) {

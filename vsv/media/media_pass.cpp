@@ -181,7 +181,9 @@ void MediaPass::recordSurfaces(gpu::Commands& commands, const SceneBuffers& scen
   if (density_ != nullptr) push.reach = lightReach(density_->boundsW, density_->voxelMetres, light.positionW);
   commands.beginStage("media surfaces");
   commands.dispatch(
-      programs_.get("vsv/shade_surface_in_medium.comp.glsl", {{.id = 0, .value = density_ != nullptr ? 1 : 0}}),
+      programs_.get("vsv/shade_surface_in_medium.comp.glsl", {{.id = 0, .value = density_ != nullptr ? 1 : 0},
+                                                              {.id = 4, .value = scene.instanced ? 1 : 0},
+                                                              {.id = 8, .value = scene.textured ? 1 : 0}}),
       groupCount_, gpu::asPush(push), bindings);
   commands.endStage();
 }

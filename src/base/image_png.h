@@ -1,0 +1,13 @@
+#pragma once
+// PNG files in memory, by zlib and all cores: ISO/IEC 15948 (https://www.w3.org/TR/png-3/), 8 bits a channel. Lines are
+// cut in bands that are packed at the same time, as pigz does it (Adler): one deflate stream of several stretches. The
+// same image gives the same bytes, however many threads there are.
+
+#include "base/image.h"
+
+namespace gnomon {
+
+// 1 (grey), 3 (RGB) or 4 (RGBA) channels.
+std::string encodePng(const Image8& image);
+
+}  // namespace gnomon
