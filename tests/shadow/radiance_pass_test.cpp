@@ -1,5 +1,5 @@
-// The radiance pass: a square whose every pixel's colour is known, with and without texture and matrix. Each of the four
-// is a program of its own.
+// The radiance pass: a square whose every pixel's colour is known, with and without texture and matrix. Each of the
+// four is a program of its own.
 #include "shadow/visibility_pass.h"
 #include "tests/gpu_fixture.h"
 
@@ -35,8 +35,8 @@ class RadiancePassTest : public gpu::GpuTest {
   }
 };
 
-// A square two metres wide that faces a camera four metres before it, its left half under a red texel and its right half
-// under a green one. `worldFromMesh` places the mesh, and changes nothing of what is seen.
+// A square two metres wide that faces a camera four metres before it, its left half under a red texel and its right
+// half under a green one. `worldFromMesh` places the mesh, and changes nothing of what is seen.
 Scene square(bool textured, const glm::mat4& worldFromMesh) {
   Scene scene;
   scene.name = "square";
