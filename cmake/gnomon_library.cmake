@@ -65,6 +65,14 @@ function(gnomon_library name)
   gnomon_install(${name})
 endfunction()
 
+# gnomon_unity(TARGET BATCH): compiles BATCH files of a target at a time, where reading CLI11 or JSON headers once a file
+# costs more than the files themselves. Their unnamed namespaces are then one: no two may define the same name.
+function(gnomon_unity target batch)
+  if(GNOMON_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+  endif()
+endfunction()
+
 # gnomon_embed_text(VARIABLE HEADER FILES...): files of the current folder as strings that HEADER declares (embed_text.cmake);
 # VARIABLE names the source to compile.
 function(gnomon_embed_text variable header)

@@ -43,7 +43,7 @@ int runBenchVerb(const BenchFlags& flags) {
   return 0;
 }
 
-Run add(CLI::App* verb) {
+Run addBench(CLI::App* verb) {
   auto flags = std::make_shared<BenchFlags>();
   flags->scene.setup.scene = "atrium";
   flags->map.mapTexels = 6291456;
@@ -73,7 +73,7 @@ Run add(CLI::App* verb) {
 Verb benchVerb() {
   return {.name = "bench",
           .sentence = "times every stage, as ratios within one run, and how the times scale; default scene: atrium",
-          .add = add};
+          .add = addBench};
 }
 
 }  // namespace gnomon

@@ -61,7 +61,7 @@ int runCompare(const CompareFlags& flags) {
   return 0;
 }
 
-Run add(CLI::App* verb) {
+Run addCompare(CLI::App* verb) {
   auto flags = std::make_shared<CompareFlags>();
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "all");
@@ -86,7 +86,7 @@ Verb compareVerb() {
   return {
       .name = "compare",
       .sentence = "compares every chosen map x bias with the exact shadow: table, pictures, results.json, report.html",
-      .add = add};
+      .add = addCompare};
 }
 
 }  // namespace gnomon

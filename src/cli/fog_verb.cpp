@@ -242,7 +242,7 @@ void addMediumFlags(CLI::App& verb, FogFlags& flags) {
       ->capture_default_str();
 }
 
-Run add(CLI::App* verb) {
+Run addFog(CLI::App* verb) {
   auto flags = std::make_shared<FogFlags>();
   addSceneFlags(*verb, flags->scene);
   verb->add_option("-o,--out", flags->out,
@@ -283,7 +283,7 @@ Verb fogVerb() {
           .sentence =
               "renders light shafts in a medium; --truth scores each integrator against a ray-traced "
               "reference",
-          .add = add};
+          .add = addFog};
 }
 
 }  // namespace gnomon

@@ -69,7 +69,7 @@ void printScene(const std::string& name) {
   }
 }
 
-Run add(CLI::App* verb) {
+Run addInfo(CLI::App* verb) {
   auto scene = std::make_shared<std::string>();
   verb->add_option("SCENE", *scene, "a glTF file or a generated scene");
   return [scene] {
@@ -87,7 +87,7 @@ Verb infoVerb() {
   return {
       .name = "info",
       .sentence = "shows devices, drivers, versions and limits; for a scene: meshes, solids, sheets, lights, cameras",
-      .add = add};
+      .add = addInfo};
 }
 
 }  // namespace gnomon

@@ -43,7 +43,7 @@ int runRender(const RenderFlags& flags) {
   return 0;
 }
 
-Run add(CLI::App* verb) {
+Run addRender(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", "adaptive");
@@ -59,7 +59,7 @@ Run add(CLI::App* verb) {
 }  // namespace
 
 Verb renderVerb() {
-  return {.name = "render", .sentence = "renders one picture of one configuration, PNG or EXR", .add = add};
+  return {.name = "render", .sentence = "renders one picture of one configuration, PNG or EXR", .add = addRender};
 }
 
 }  // namespace gnomon

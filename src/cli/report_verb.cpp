@@ -23,7 +23,7 @@ int runReport(const ReportFlags& flags) {
   return 0;
 }
 
-Run add(CLI::App* verb) {
+Run addReport(CLI::App* verb) {
   auto flags = std::make_shared<ReportFlags>();
   verb->add_option("DIR", flags->folder, "a folder written by gnomon compare -o or gnomon fog -o")->required();
   verb->add_option("-o,--out", flags->out, "the page: FILE.html")->required();
@@ -33,7 +33,8 @@ Run add(CLI::App* verb) {
 }  // namespace
 
 Verb reportVerb() {
-  return {.name = "report", .sentence = "rebuilds the HTML report of a folder that compare or fog wrote", .add = add};
+  return {
+      .name = "report", .sentence = "rebuilds the HTML report of a folder that compare or fog wrote", .add = addReport};
 }
 
 }  // namespace gnomon

@@ -34,7 +34,7 @@ int runReproduce(const ReproduceFlags& flags) {
   return 0;
 }
 
-Run add(CLI::App* verb) {
+Run addReproduce(CLI::App* verb) {
   auto flags = std::make_shared<ReproduceFlags>();
   std::string papers;
   for (const std::string& paper : reproduciblePapers()) papers += (papers.empty() ? "" : " or ") + paper;
@@ -62,7 +62,7 @@ Run add(CLI::App* verb) {
 Verb reproduceVerb() {
   return {.name = "reproduce",
           .sentence = "reproduces a paper's figures and tables, and tests whether its claims hold here",
-          .add = add};
+          .add = addReproduce};
 }
 
 }  // namespace gnomon

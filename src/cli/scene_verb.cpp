@@ -63,7 +63,7 @@ int runScene(const SceneVerbFlags& flags) {
   return flags.name.empty() ? listScenes() : writeScene(flags);
 }
 
-Run add(CLI::App* verb) {
+Run addScene(CLI::App* verb) {
   auto flags = std::make_shared<SceneVerbFlags>();
   verb->add_option("NAME", flags->name, "a generated scene, `crowd:N` for about N triangles");
   verb->add_option("-o,--out", flags->out, "FILE.glb, or FILE.vdb for a density");
@@ -82,7 +82,7 @@ Run add(CLI::App* verb) {
 Verb sceneVerb() {
   return {.name = "scene",
           .sentence = "writes a generated scene as glTF, or a density as OpenVDB; without a name, lists them",
-          .add = add};
+          .add = addScene};
 }
 
 }  // namespace gnomon

@@ -64,7 +64,7 @@ int runVsv(const VsvFlags& flags) {
   return 3;
 }
 
-Run add(CLI::App* verb) {
+Run addVsv(CLI::App* verb) {
   auto flags = std::make_shared<VsvFlags>();
   addSceneFlags(*verb, flags->scene);
   addMapOptionFlags(*verb, flags->map, volumeParameterization().options());
@@ -89,7 +89,7 @@ Run add(CLI::App* verb) {
 Verb vsvVerb() {
   return {.name = "vsv",
           .sentence = "builds a voxelized shadow volume, checks it on the CPU, exports it as .vdb",
-          .add = add};
+          .add = addVsv};
 }
 
 }  // namespace gnomon

@@ -99,23 +99,23 @@ struct PublishedFrames {
   double constantFps, dualFps;
 };
 constexpr double kNoShadowFps = 167.5;
-constexpr std::array<PublishedFrames, 6> kTable1 = {{{256, "none", 106.2, 85.3},
-                                                     {2048, "none", 69.1, 30.6},
-                                                     {256, "bilinear", 44.8, 40.6},
-                                                     {2048, "bilinear", 36.6, 21.9},
-                                                     {256, "jitter4x4", 27.2, 25.5},
-                                                     {2048, "jitter4x4", 23.9, 16.6}}};
+constexpr std::array<PublishedFrames, 6> kPublishedFrames = {{{256, "none", 106.2, 85.3},
+                                                              {2048, "none", 69.1, 30.6},
+                                                              {256, "bilinear", 44.8, 40.6},
+                                                              {2048, "bilinear", 36.6, 21.9},
+                                                              {256, "jitter4x4", 27.2, 25.5},
+                                                              {2048, "jitter4x4", 23.9, 16.6}}};
 
 // What a method is answerable for.
 std::string shadowText(const FrameCost& cost) {
   return fmt::format("{:.1f}", cost.mapMs + cost.visibilityMs);
 }
 
-void table1(PaperRun& run) {
+void frameTable(PaperRun& run) {
   const Session& session = run.open("factory", "", "", run.scaled(1100));
   std::vector<FrameKind> kinds = {{.name = "no shadow"}};
   const std::array<const char*, 3> biases = {"constant", "midpoint", "dual"};
-  for (const PublishedFrames& line : kTable1)
+  for (const PublishedFrames& line : kPublishedFrames)
     for (const char* bias : biases)
       kinds.push_back({.name = fmt::format("{} {} {}", bias, line.mapSide, line.filter),
                        .bias = &findBias(bias),
@@ -137,8 +137,8 @@ void table1(PaperRun& run) {
       .columns = {"map, filter", "constant: paper", "here", "here, ms", "midpoint and dual: paper", "midpoint here",
                   "dual here", "dual here, ms", "map and visibility, ms: constant", "midpoint", "dual"},
       .rows = {}};
-  for (size_t i = 0; i < kTable1.size(); ++i) {
-    const PublishedFrames& line = kTable1[i];
+  for (size_t i = 0; i < kPublishedFrames.size(); ++i) {
+    const PublishedFrames& line = kPublishedFrames[i];
     const FrameCost *constant = &costs[1 + 3 * i], *midpoint = constant + 1, *dual = constant + 2;
     table.rows.push_back({fmt::format("{}, {}", run.scaled(line.mapSide), line.filter),
                           fmt::format("{:.2f}", kNoShadowFps / line.constantFps),
@@ -299,7 +299,7 @@ Reproduction reproduceWeiskopf2003(const gpu::DeviceOptions& device, const Repro
   run.part("figure 5", [&] { figure5(run); });
   run.part("figure 6", [&] { figure6(run); });
   run.part("figure 7", [&] { figure7(run); });
-  run.part("table 1", [&] { table1(run); });
+  run.part("table 1", [&] { frameTable(run); });
   run.part("section 7", [&] { offsets(run); });
   run.judge(weiskopfClaims());
   return std::move(run.result());
