@@ -71,7 +71,7 @@ void printScene(const std::string& name) {
 
 Run addInfo(CLI::App* verb) {
   auto scene = std::make_shared<std::string>();
-  verb->add_option("SCENE", *scene, "a glTF file or a generated scene");
+  verb->add_option("SCENE", *scene, "a glTF file (.gltf, .glb), or a generated scene: `gnomon scene` lists them");
   return [scene] {
     if (scene->empty())
       printDevices();

@@ -1,62 +1,19 @@
-// The program: exit codes, one clear line for every mistake, and files that are whole or absent.
-#include "base/file.h"
+// The program: what its verbs print and write, and files that are whole or absent.
 #include "lab/core/maps.h"
-#include "tests/base/temporary_folder.h"
 
-#include <sys/wait.h>
+#include "cli_fixture.h"
 
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <set>
 #include <sstream>
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace gnomon {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Result {
-  int exitCode = -1;
-  std::string out;
-  std::string err;
-};
-
-class CliTest : public ::testing::Test {
- protected:
-  // `@` in the arguments stands for this test's folder.
-  Result run(std::string arguments) const {
-    for (size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@'))
-      arguments.replace(at, 1, folder_.string());
-    const std::string command = std::string(GNOMON_PROGRAM) + " " + arguments + " >" + (folder_ / "stdout").string() +
-                                " 2>" + (folder_ / "stderr").string() + " </dev/null";
-    const int status = std::system(command.c_str());
-    Result result{.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
-                  .out = readFile(folder_ / "stdout"),
-                  .err = readFile(folder_ / "stderr")};
-    fs::remove(folder_ / "stdout");
-    fs::remove(folder_ / "stderr");
-    return result;
-  }
-
-  // Exit code, and a single line on stderr that holds `what`.
-  void expectMistake(const std::string& arguments, int exitCode, const std::string& what) const {
-    const Result result = run(arguments);
-    EXPECT_EQ(result.exitCode, exitCode) << arguments << "\n" << result.err;
-    EXPECT_NE(result.err.find(what), std::string::npos) << arguments << "\n" << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << arguments << "\n" << result.err;
-  }
-
-  size_t fileCount() const {
-    return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
-
-  const test::TemporaryFolder temporary_;
-  const fs::path& folder_ = temporary_.path();
-};
+using test::CliTest;
+using test::Result;
 
 TEST_F(CliTest, CompareWritesATableResultsAndPicturesAndNoMessageOfValidation) {
   const Result result =
@@ -145,21 +102,6 @@ TEST_F(CliTest, ThePagesCommandsMakeItsRowsAgainWhateverTheOptions) {
   }
 }
 
-TEST_F(CliTest, AReportOfNothingOrOfGarbageIsRefusedInOneLine) {
-  fs::create_directory(folder_ / "run");
-  expectMistake("report", 2, "DIR");
-  expectMistake("report @/run", 2, "--out");
-  expectMistake("report @/nowhere -o @/a.html", 1, "nowhere/results.json: does not exist");
-  expectMistake("report @/run -o @/a.html", 1, "results.json: does not exist");
-  writeTextFile(folder_ / "run" / "results.json", "{\"schema\": 2");
-  expectMistake("report @/run -o @/a.html", 1, "run/results.json: is not JSON");
-  writeTextFile(folder_ / "run" / "results.json", "{\"schema\": 99}");
-  expectMistake("report @/run -o @/a.html", 1, "run/results.json: has schema 99");
-  writeTextFile(folder_ / "run" / "results.json", "{\"schema\": 2}");
-  expectMistake("report @/run -o @/a.html", 1, "run/results.json: gnomon is missing");
-  EXPECT_EQ(fileCount(), 1u);
-}
-
 TEST_F(CliTest, FogWritesATableResultsPicturesAndAPage) {
   const std::string small = " --size 48 --vsv-size 128x128x128 --map-size 128 --repeats 1 ";
   const Result result = run("fog grate --truth --bound 0.01 --no-cache --steps 8,32 -o @/out --json @/r.json" + small);
@@ -200,15 +142,6 @@ TEST_F(CliTest, FogMarchesADensity) {
   EXPECT_EQ(json.at("media")[0].at("steps"), 16);
   EXPECT_LT(json.at("media")[0].at("rel_rmse_99"), 0.5);
   EXPECT_FALSE(json.at("medium").at("density").is_null());
-}
-
-TEST_F(CliTest, ReproduceRefusesWhatItCannotRunInOneLine) {
-  expectMistake("reproduce", 2, "PAPER");
-  expectMistake("reproduce williams1978", 2, "no such paper; choose from weiskopf2003, dou2014");
-  expectMistake("reproduce dou2014 --scale 7", 2, "--scale 7 is outside 0.05..1");
-  expectMistake("reproduce dou2014 --repeats 0", 2, "--repeats");
-  expectMistake("reproduce weiskopf2003 --scene @/nowhere.glb -o @/out", 1, "nowhere.glb");
-  EXPECT_EQ(fileCount(), 0u);
 }
 
 TEST_F(CliTest, EveryBiasKnobIsAFlag) {
@@ -266,103 +199,10 @@ TEST_F(CliTest, AFilesKnobsAreSetByName) {
                 "--bias-file-knob reach 9 is outside 0..8 texels");
 }
 
-TEST_F(CliTest, AShadowVolumeLeavesOutWhatMeansNothingOnItAndSaysSo) {
-  const Result result =
-      run("compare contact --maps vsv --biases none,slope,adaptive --vsv-size 64x64x128 --size 32 --repeats 1");
-  ASSERT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_NE(result.err.find("skips slope"), std::string::npos) << result.err;
-  EXPECT_NE(result.out.find("vsv 64x64x128"), std::string::npos) << result.out;
-  const Result tooLarge = run("compare contact --maps vsv --biases none --vsv-size 4096x4096x4096 --size 32");
-  EXPECT_EQ(tooLarge.exitCode, 1);
-  EXPECT_NE(tooLarge.err.find("would fit"), std::string::npos) << tooLarge.err;
-}
-
 TEST_F(CliTest, MapTexelsPicksTheSide) {
   const Result result = run("compare corner --biases none --map-texels 10000 --size 32 --repeats 1 --json @/r.json");
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows")[0].at("map_size"), 100);
-}
-
-TEST_F(CliTest, AThresholdThatIsCrossedExitsWith3) {
-  const std::string base = "compare tilted-planes --biases none,adaptive --size 64 --map-size 64 --repeats 1 ";
-  const Result crossed = run(base + "--fail-if 'none:acne>1%'");
-  EXPECT_EQ(crossed.exitCode, 3);
-  EXPECT_NE(crossed.err.find("spot none: acne is"), std::string::npos) << crossed.err;
-  EXPECT_EQ(run(base + "--fail-if 'adaptive:acne>0' --fail-if 'adaptive:leak>0'").exitCode, 0);
-}
-
-TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
-  expectMistake("", 2, "subcommand");
-  expectMistake("compare", 2, "SCENE");
-  expectMistake("compare contact --maps disc", 2, "--maps disc: no such map");
-  expectMistake("compare contact --biases adaptve", 2, "adaptve: no such bias");
-  expectMistake("compare contact --maps vsv --biases slope,dual", 2,
-                "--maps vsv supports none of these --biases; choose from none, constant, adaptive");
-  expectMistake("compare contact --maps vsv --biases none --filters bilinear", 2, "--maps vsv supports no filter");
-  expectMistake("compare contact --maps vsv --vsv-size 64x64x100", 2, "--vsv-size 64x64x100");
-  expectMistake("compare contact --maps vsv --vsv-source cube", 2, "--vsv-source cube");
-  expectMistake("compare contact --maps vsv --vsv-fit tight", 2, "--vsv-fit tight");
-  expectMistake("compare contact --size 0", 2, "--size 0");
-  expectMistake("compare contact --map-size 1", 2, "2..16384");
-  expectMistake("compare contact --map-size 64 --map-texels 4096", 2, "excludes");
-  expectMistake("compare contact --constant-offset -1", 2, "--constant-offset");
-  expectMistake("compare contact --constant-offset nan", 2, "--constant-offset");
-  expectMistake("compare contact --fail-if acne", 2, "--fail-if 'acne'");
-  expectMistake("compare contact --camera eye:1,2", 2, "--camera");
-  expectMistake("compare contact --cone 300", 2, "--cone 300");
-  expectMistake("compare contact --cull all", 2, "--cull all");
-  expectMistake("compare contact --fit wide", 2, "--fit wide: no such choice");
-  expectMistake("compare contact --snap yes", 2, "--snap yes: no such choice");
-  expectMistake("compare contact --warp fish", 2, "--warp fish: no such choice");
-  expectMistake("compare contact --cascades two", 2, "--cascades two: write a whole number of 1..4");
-  expectMistake("compare contact --cube-depth cubic", 2, "--cube-depth cubic: no such choice; choose from hyperbolic");
-  expectMistake("compare contact --cube-passes 6", 2, "--cube-passes 6: no such choice");
-  expectMistake("compare contact --paraboloid-raster no", 2, "--paraboloid-raster no: no such choice");
-  expectMistake("compare contact --paraboloid-axis 1,2", 2, "--paraboloid-axis 1,2: write three numbers, x,y,z");
-  expectMistake("compare contact --paraboloid-axis 0,0,0", 2, "--paraboloid-axis 0,0,0 has no direction");
-  expectMistake("compare contact --cascades 5", 2, "--cascades 5: is outside 1..4");
-  expectMistake("compare contact --cascades 2 --warp tsm", 2, "--cascades 2 with --warp tsm");
-  expectMistake("compare contact --repeats 0", 2, "--repeats");
-  expectMistake("compare contact --no-such-flag", 2, "--no-such-flag");
-  expectMistake("render contact -o @/a.jpg", 2, "the name must end in .png or .exr");
-  expectMistake("render contact --biases all -o @/a.png", 2, "one configuration");
-  expectMistake("fog grate --integrators rays", 2, "--integrators rays");
-  expectMistake("fog grate --steps 0", 2, "--steps 0");
-  expectMistake("fog grate --steps 3.5", 2, "--steps 3.5");
-  expectMistake("fog grate --march-map spot", 2, "--march-map spot: choose cube or paraboloid");
-  expectMistake("fog grate --sigma-s 1,2", 2, "--sigma-s 1,2: write one number or r,g,b");
-  expectMistake("fog grate --sigma-a -1", 2, "--sigma-a -1");
-  expectMistake("fog grate --sigma-s nan", 2, "--sigma-s nan");
-  expectMistake("fog grate --g 1", 2, "--g 1");
-  expectMistake("fog grate --reach 0", 2, "--reach 0");
-  expectMistake("fog grate --bound 0", 2, "--bound 0");
-  expectMistake("fog grate --density-scale 2", 2, "need a --density");
-  expectMistake("fog grate --frames 3", 2, "--frames and --move: give both or neither");
-  expectMistake("fog grate --frames 3 --move sun:1,0,0", 2, "--move sun:1,0,0");
-  expectMistake("fog grate --frames 3 --move light:1,0,0", 2, "give a folder with -o");
-  expectMistake("scene tilted-planes", 2, "-o FILE.glb");
-  expectMistake("scene tilted-planes -o @/a.obj", 2, "the name must end in .glb");
-  EXPECT_EQ(fileCount(), 0u);
-}
-
-TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
-  expectMistake("compare nowhere.glb", 1, "nowhere.glb");
-  expectMistake("compare contact --light moon --size 16", 1, "--light moon: the scene has no light of this name");
-  expectMistake("compare contact --camera x --size 16", 1, "--camera x: the scene has no camera of this name");
-  expectMistake("compare contact --device Voodoo2 --size 16", 1, "Voodoo2");
-  expectMistake("compare contact --camera eye:0,1000,0,target:0,2000,0 --size 16", 1, "the camera sees no surface");
-  expectMistake("render contact --size 16 --map-size 16 -o /proc/nowhere/a.png", 1, "/proc/nowhere");
-  expectMistake("fog grate --density @/none.vdb --size 16", 1, "none.vdb");
-  expectMistake("fog atrium --light moon --size 16", 1, "--light moon");
-  expectMistake("fog grate --light 0,1,5 --camera eye:0,1,5,target:0,0,0 --size 16", 1, "stands at the camera's eye");
-  expectMistake("scene nothing -o @/a.glb", 1, "nothing");
-  expectMistake("scene --density steam -o @/a.vdb", 2, "choose from puff, fog, turbulence");
-  expectMistake("scene --density puff", 2, "-o FILE.vdb");
-  expectMistake("scene --density puff -o @/a.glb", 2, "the name must end in .vdb");
-  expectMistake("scene grate --density puff -o @/a.vdb", 2, "--for grate");
-  expectMistake("scene --density puff --for nothing -o @/a.vdb", 1, "nothing");
-  expectMistake("compare contact --shader-dir @/none --size 16", 1, "none");
-  EXPECT_EQ(fileCount(), 0u);
 }
 
 // The choices of a flag, which --help lists as {a,b,c} behind it.
@@ -426,21 +266,6 @@ TEST_F(CliTest, VsvValidatesAndWritesAVolume) {
   EXPECT_EQ(readFile(folder_ / "v.vdb").substr(0, 4), " BDV");
   for (const char* picture : {"slice_alpha", "slice_theta", "slice_phi", "coordinates"})
     EXPECT_TRUE(fs::exists(folder_ / "out" / (std::string(picture) + ".png"))) << picture;
-}
-
-TEST_F(CliTest, VsvSaysWhatIsWrong) {
-  expectMistake("vsv contact --vsv-size 64x64", 2, "--vsv-size");
-  expectMistake("vsv contact --vsv-source map", 2, "--vsv-source map");
-  expectMistake("vsv contact --vsv-fit tight", 2, "--vsv-fit tight");
-  expectMistake("vsv contact --vdb @/v.nvdb", 2, "the name must end in .vdb");
-  expectMistake("vsv contact --vdb-voxel 1", 2, "--vdb-voxel needs a --vdb");
-  expectMistake("vsv contact --vdb @/v.vdb --vdb-voxel nan", 2, "--vdb-voxel");
-  const std::string small = "vsv contact --vsv-size 64x64x128 --size 16 ";
-  expectMistake(small + "--vdb @/v.vdb --vdb-voxel 1e-5", 2, "--vdb-voxel 1e-05");
-  expectMistake(small + "--vdb /proc/nowhere/v.vdb", 1, "/proc/nowhere");
-  expectMistake(small + "--vdb /dev/null/v.vdb", 1, "/dev/null");
-  expectMistake("vsv contact --vsv-size 8192x8192x8192 --size 16", 1, "would fit");
-  EXPECT_EQ(fileCount(), 0u);
 }
 
 TEST_F(CliTest, SceneListsAndInfoTells) {
