@@ -11,11 +11,11 @@ constinit const ChoiceOption<CubeDepth> kCubeDepth(
     {{CubeDepth::Hyperbolic, "hyperbolic", "z/w of each face, as rasterized"},
      {CubeDepth::Radial, "radial", "linear in the distance from the light"}});
 
-constinit const ChoiceOption<LayerPasses> kCubePasses(
-    {.name = "cube_passes", .sentence = "how a cube map's faces are drawn"}, LayerPasses::Auto,
-    {{LayerPasses::Auto, "auto", "the faster of those that the device draws correctly"},
-     {LayerPasses::Each, "six", "one pass a face"},
-     {LayerPasses::Multiview, "multiview", "all faces in one pass"}});
+constinit const ChoiceOption<SlicePasses> kCubePasses(
+    {.name = "cube_passes", .sentence = "how a cube map's faces are drawn"}, SlicePasses::Auto,
+    {{SlicePasses::Auto, "auto", "the faster of those that the device draws correctly"},
+     {SlicePasses::Each, "six", "one pass a face"},
+     {SlicePasses::Multiview, "multiview", "all faces in one pass"}});
 
 namespace {
 
@@ -26,12 +26,12 @@ glm::vec2 clipDepth(double zNear, double zFar) {
 }
 
 // Rows s, t, m of cubeFaceFromLight, and depth.
-glm::mat4 clipFromLight(int layer, const glm::vec2& depth) {
+glm::mat4 clipFromLight(int slice, const glm::vec2& depth) {
   glm::mat4 m(0.0f);
   for (int axis = 0; axis < 3; ++axis) {
     glm::vec3 unit(0.0f);
     unit[axis] = 1.0f;
-    const glm::vec3 stm = glsl::cubeFaceFromLight(layer, unit);
+    const glm::vec3 stm = glsl::cubeFaceFromLight(slice, unit);
     m[axis] = {stm.x, stm.y, stm.z * depth.x, stm.z};
   }
   m[3] = {0.0f, 0.0f, depth.y, 0.0f};
@@ -42,7 +42,7 @@ class CubeParameterization final : public Parameterization {
  public:
   const char* name() const override { return "cube"; }
   const char* sentence() const override { return "six faces around a point light"; }
-  int layerCount(const MapOptions&) const override { return 6; }
+  int sliceCount(const MapOptions&) const override { return 6; }
 
   LightSupport supportsLight(LightType type) const override {
     return type == LightType::Directional ? LightSupport::No : LightSupport::Yes;
@@ -85,20 +85,20 @@ FittedMap makeCubeMap(const glm::dvec3& lightW, CubeDepth depth, double zNear, d
   fitted.zNear = static_cast<float>(zNear);
   fitted.zFar = static_cast<float>(zFar);
   fitted.map = {.kind = radial ? glsl::kMapCubeRadial : glsl::kMapCube,
-                .layerCount = 6,
-                .side = side,
-                .rows = side,
+                .sliceCount = 6,
+                .width = side,
+                .height = side,
                 .sceneScale = sceneScale,
                 .zNear = fitted.zNear,
                 .zFar = fitted.zFar};
   // What lies within the near distance is thrown away by the fragment shader; the near plane must only not
   // cut what lies beyond. A hundredth keeps it clear of rounding.
   fitted.map.clipDepth = clipDepth(radial ? zNear * (0.99 / std::sqrt(3.0)) : zNear, zFar);
-  for (int layer = 0; layer < 6; ++layer) {
-    const glm::mat4 clip = clipFromLight(layer, fitted.map.clipDepth);
-    fitted.map.mapLayers[layer] = {clip, glm::mat4(glm::inverse(glm::dmat4(clip)))};
+  for (int slice = 0; slice < 6; ++slice) {
+    const glm::mat4 clip = clipFromLight(slice, fitted.map.clipDepth);
+    fitted.map.mapSlices[slice] = {clip, glm::mat4(glm::inverse(glm::dmat4(clip)))};
   }
-  fitted.shaders.mirroredLayers = 0x3f;
+  fitted.shaders.mirroredSlices = 0x3f;
   // A cross: +X -X +Y -Y +Z -Z
   fitted.unfoldedAt = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}};
   if (radial) {

@@ -1,5 +1,5 @@
 #pragma once
-// The cube map: six planar layers of 90 degrees around a point light, with the axes of the world. Its
+// The cube map: six planar slices of 90 degrees around a point light, with the axes of the world. Its
 // mathematics is shaders/shared/cube_map.glsl.
 //
 // Two kinds of depth (kCubeDepth). Hyperbolic is the rasterizer's z/w of each face, needs no
@@ -15,7 +15,7 @@ namespace gnomon {
 enum class CubeDepth { Hyperbolic, Radial };
 
 extern const ChoiceOption<CubeDepth> kCubeDepth;
-extern const ChoiceOption<LayerPasses> kCubePasses;
+extern const ChoiceOption<SlicePasses> kCubePasses;
 
 const Parameterization& cubeParameterization();
 

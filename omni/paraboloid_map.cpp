@@ -83,8 +83,8 @@ double clearance(const glm::dvec3& axis, const std::vector<glm::dvec3>& directio
   return *low;
 }
 
-LayerShaders shadersFor(ParaboloidRaster raster) {
-  LayerShaders shaders;
+SliceShaders shadersFor(ParaboloidRaster raster) {
+  SliceShaders shaders;
   shaders.projective = false;
   if (raster == ParaboloidRaster::Exact) {
     shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
@@ -96,7 +96,7 @@ LayerShaders shadersFor(ParaboloidRaster raster) {
     shaders.bounds = "omni/cut_for_paraboloid.comp.glsl";
   } else {
     shaders.vertex = "omni/project_to_paraboloid.vert.glsl";
-    shaders.mirroredLayers = 0b10;
+    shaders.mirroredSlices = 0b10;
   }
   return shaders;
 }
@@ -105,7 +105,7 @@ class ParaboloidParameterization final : public Parameterization {
  public:
   const char* name() const override { return "paraboloid"; }
   const char* sentence() const override { return "two hemispheres around a point light"; }
-  int layerCount(const MapOptions&) const override { return 2; }
+  int sliceCount(const MapOptions&) const override { return 2; }
 
   LightSupport supportsLight(LightType type) const override {
     return type == LightType::Directional ? LightSupport::No : LightSupport::Yes;
@@ -150,16 +150,16 @@ FittedMap makeParaboloidMap(const glm::dvec3& lightW, const glm::dvec3& axisW, P
   fitted.zNear = static_cast<float>(zNear);
   fitted.zFar = static_cast<float>(zFar);
   fitted.map = {.kind = glsl::kMapParaboloid,
-                .layerCount = 2,
-                .side = side,
-                .rows = side,
+                .sliceCount = 2,
+                .width = side,
+                .height = side,
                 .sceneScale = sceneScale,
                 .zNear = fitted.zNear,
                 .zFar = fitted.zFar};
   fitted.shaders = shadersFor(raster);
-  for (int layer = 0; layer < 2; ++layer)
+  for (int slice = 0; slice < 2; ++slice)
     fitted.halfSpaces.push_back(
-        {.axisZ = glsl::paraboloidAxisZ(layer), .beyond = kRimTexels / static_cast<float>(side)});
+        {.axisZ = glsl::paraboloidAxisZ(slice), .beyond = kRimTexels / static_cast<float>(side)});
   return fitted;
 }
 

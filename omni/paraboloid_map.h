@@ -1,6 +1,6 @@
 #pragma once
 // The dual paraboloid map: two layers, each a hemisphere around a point light, depth linear in the distance.
-// Its mathematics is shaders/shared/paraboloid_map.glsl; the frame's -z is the axis of layer 0, and the seam
+// Its mathematics is shaders/shared/paraboloid_map.glsl; the frame's -z is the axis of slice 0, and the seam
 // is the great circle across it.
 //
 // Three rasterizers (kParaboloidRaster), because straight edges project to arcs. `vertex` projects the vertices and
@@ -34,7 +34,7 @@ FittedMap makeParaboloidMap(const glm::dvec3& lightW, const glm::dvec3& axisW, P
 
 // The axis that turns the seam away from what is seen: of directions spread evenly over a hemisphere, the one
 // for which the receiver at the 5th percentile of the angle to the seam is farthest from it. (The nearest one
-// decides nothing where receivers lie all around the light: some are on any seam.) Unit; layer 0 looks at the
+// decides nothing where receivers lie all around the light: some are on any seam.) Unit; slice 0 looks at the
 // greater part. Straight down where there are no receivers.
 glm::dvec3 seamAvoidingAxis(const glm::dvec3& lightW, std::span<const glm::dvec3> receiversW);
 

@@ -1,7 +1,7 @@
 // A user-defined parameterization, scored beside the cube: four faces of a tetrahedron around a point light (after
 // Liao, "Shadow Mapping for Omni-Directional Light Using Tetrahedron Mapping", GPU Pro, 2010).
 //
-// Every layer is an ordinary projection (kMapPlanar), so the matrices are all that is needed: biases, filters, labels
+// Every slice is an ordinary projection (kMapPlanar), so the matrices are all that is needed: biases, filters, labels
 // and tables work unchanged. docs/add_a_parameterization.md says what else is needed where no matrix describes the
 // texels.
 //
@@ -41,8 +41,8 @@ glm::dmat4 clipFromLight(const glm::dvec3& axis, const glm::dvec3& corner, const
 class Tetrahedron final : public Parameterization {
  public:
   const char* name() const override { return "tetrahedron"; }
-  const char* sentence() const override { return "four layers around a point light"; }
-  int layerCount(const MapOptions&) const override { return 4; }
+  const char* sentence() const override { return "four slices around a point light"; }
+  int sliceCount(const MapOptions&) const override { return 4; }
   LightSupport supportsLight(LightType type) const override {
     return type == LightType::Directional ? LightSupport::No : LightSupport::Yes;
   }
@@ -59,16 +59,16 @@ class Tetrahedron final : public Parameterization {
     fitted.zNear = static_cast<float>(ends.zNear);
     fitted.zFar = static_cast<float>(ends.zFar);
     fitted.map = {.kind = glsl::kMapPlanar,
-                  .layerCount = 4,
-                  .side = input.side,
-                  .rows = input.side,
+                  .sliceCount = 4,
+                  .width = input.side,
+                  .height = input.side,
                   .sceneScale = computeBounds(input.scene).diagonal()};
     // A face's axis is opposite to one corner of the tetrahedron; its own corners are the three others.
     const glm::dvec3 corners[4] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     for (int face = 0; face < 4; ++face) {
       const glm::mat4 clip(
           clipFromLight(-corners[face] / std::sqrt(3.0), corners[(face + 1) % 4] / std::sqrt(3.0), ends));
-      fitted.map.mapLayers[face] = {clip, glm::mat4(glm::inverse(glm::dmat4(clip)))};
+      fitted.map.mapSlices[face] = {clip, glm::mat4(glm::inverse(glm::dmat4(clip)))};
     }
     return fitted;
   }

@@ -19,12 +19,12 @@ GNOMON_SHARED_BEGIN
 // `tap.ray` passes through the centre of the texel that is looked up, `tap.z1` is what the texel stores. Everything is
 // in the light's frame, in metres; depths are the map's, and mapDistance turns one into metres along a ray.
 GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  PlaneDepth plane = receiverPlaneDepth(map, tap.layer, receiver, tap.ray);
+  PlaneDepth plane = receiverPlaneDepth(map, tap.slice, receiver, tap.ray);
   float along = dot(receiver.posL - tap.ray.origin, tap.ray.dir);
   vec3 nearest = tap.ray.origin + tap.ray.dir * along;
   float aside = length(receiver.posL - nearest);  // metres
-  float stored = mapDistance(map, tap.layer, tap.ray, tap.z1);
-  float wanted = mapDistance(map, tap.layer, tap.ray, plane.depth);
+  float stored = mapDistance(map, tap.slice, tap.ray, tap.z1);
+  float wanted = mapDistance(map, tap.slice, tap.ray, plane.depth);
   return wanted <= stored + params.knobs[kUserShare] * aside + 1e-4f * map.sceneScale;
 }
 

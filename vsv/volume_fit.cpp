@@ -183,13 +183,13 @@ FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit
                    .upW = glm::vec3(worldFromLight[1]),
                    .backW = glm::vec3(worldFromLight[2])};
   columns.map = {.kind = glsl::kMapEpipolar,
-                 .layerCount = 1,
-                 .side = size.theta,
-                 .rows = size.phi,
+                 .sliceCount = 1,
+                 .width = size.theta,
+                 .height = size.phi,
                  .sceneScale = sceneScale,
                  .epipolar = grid};
   columns.zFar = static_cast<float>(farthestReceiver(input.scene, lightW, Distance::Radial, input.receiversW));
-  LayerShaders& shaders = columns.shaders;
+  SliceShaders& shaders = columns.shaders;
   shaders.projective = false;
   shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
   shaders.fragment = "shadow/draw_bounded_triangle.frag.glsl";

@@ -56,7 +56,7 @@ class VolumeParameterization final : public Parameterization {
  public:
   const char* name() const override { return "vsv"; }
   const char* sentence() const override { return "an epipolar voxelized shadow volume, one bit a voxel"; }
-  int layerCount(const MapOptions&) const override { return 1; }
+  int sliceCount(const MapOptions&) const override { return 1; }
 
   LightSupport supportsLight(LightType type) const override {
     return type == LightType::Directional ? LightSupport::No : LightSupport::Yes;
@@ -93,7 +93,7 @@ class VolumeParameterization final : public Parameterization {
   }
   std::vector<std::pair<std::string, std::string>> fitParams(const FittedMap& fitted) const override {
     if (!fitted.occluderSource) return {};
-    return {{"cube_size", fmt::format("{}", fitted.occluderSource->map.side)}};
+    return {{"cube_size", fmt::format("{}", fitted.occluderSource->map.width)}};
   }
 };
 

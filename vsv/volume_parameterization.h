@@ -1,5 +1,5 @@
 #pragma once
-// The shadow volume as a parameterization: its columns are the texels of a one-layer map, whose depths are stored in
+// The shadow volume as a parameterization: its columns are the texels of a one-slice map, whose depths are stored in
 // unary, as bits.
 
 #include "vsv/shadow_volume.h"

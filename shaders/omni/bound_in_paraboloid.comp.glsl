@@ -1,4 +1,4 @@
-// The triangles that a layer of a paraboloid map shows, one invocation each; large ones have a bound for each of
+// The triangles that a slice of a paraboloid map shows, one invocation each; large ones have a bound for each of
 // several pieces, all with the whole triangle's planes, so that no texel is decided otherwise.
 #include "shared/bounded_triangle.glsl"
 #include "shared/paraboloid_pieces.glsl"
@@ -11,7 +11,7 @@ layout(scalar, binding = kBindBoundedTriangles) writeonly buffer Found { Bounded
 layout(scalar, binding = kBindBoundedDraw) buffer DrawArguments { BoundedDraw draw; };
 
 layout(push_constant, scalar) uniform Push {
-  int layer;
+  int slice;
   int facing;  // 1: only what winds counter-clockwise seen from the light, -1: only the rest, 0: both
   uint firstTriangle;
   uint triangleCount;
@@ -34,12 +34,12 @@ void main() {
   Piece piece = whole;
   bool more = true;
   while (more) {
-    QuadBound bound = paraboloidBound(shadowMap.side, layer, lightTriangle(piece.a, piece.b, piece.c));
+    QuadBound bound = paraboloidBound(shadowMap.width, slice, lightTriangle(piece.a, piece.b, piece.c));
     bool seen = bound.p0 != bound.p1 || bound.p1 != bound.p2;
     // What finds no room stays whole: its bound is wider, and nothing else.
-    if (seen && waitingCount < kMostWaiting && isWorthHalving(shadowMap.side, layer, piece, bound) &&
+    if (seen && waitingCount < kMostWaiting && isWorthHalving(shadowMap.width, slice, piece, bound) &&
         atomicAdd(draw.extraCount, 1u) < kMostExtraTriangles) {
-      PieceHalves halves = halvesOf(shadowMap.side, layer, piece, false);
+      PieceHalves halves = halvesOf(shadowMap.width, slice, piece, false);
       waiting[waitingCount] = halves.second;
       ++waitingCount;
       piece = halves.first;

@@ -1,4 +1,4 @@
-// The triangles that a layer of a paraboloid map shows, one invocation each, cut until they may be drawn with straight
+// The triangles that a slice of a paraboloid map shows, one invocation each, cut until they may be drawn with straight
 // edges (paraboloid_pieces.glsl).
 //
 // mapDepth is called by its case: lavapipe inlines uniforms that loops and branches depend on, and a switch in the loop
@@ -15,20 +15,20 @@ layout(scalar, binding = kBindBoundedTriangles) writeonly buffer Found { Straigh
 layout(scalar, binding = kBindBoundedDraw) buffer DrawArguments { BoundedDraw draw; };
 
 layout(push_constant, scalar) uniform Push {
-  int layer;
+  int slice;
   int facing;  // 1: only what winds counter-clockwise seen from the light, -1: only the rest, 0: both
   uint firstTriangle;
   uint triangleCount;
   uint instance;
 };
 
-vec4 onLayer(vec3 posL) {
-  vec3 p = layerFromLight(layer, posL);
+vec4 onSlice(vec3 posL) {
+  vec3 p = sliceFromLight(slice, posL);
   float radius = length(p);
   // Near the opposite pole only where there was no room to cut; the rim cuts what comes near it.
   vec2 at = vec2(p.x, p.y) * (1.0f / max(radius + p.z, 1e-3f * radius));
   // A value of the corner alone, so that pieces that share an edge are cut at the same place of it.
-  float rim = drawnRim(shadowMap.side);
+  float rim = drawnRim(shadowMap.width);
   return vec4(at.x, -at.y, paraboloidDepth(shadowMap, posL), rim * rim - dot(at, at));
 }
 
@@ -50,10 +50,10 @@ void main() {
   Piece piece = whole;
   bool more = true;
   while (more) {
-    bool seen = !isBeyondRim(shadowMap.side, layer, piece);
-    if (seen && waitingCount < kMostWaiting && !isDrawnStraight(shadowMap.side, layer, piece) &&
+    bool seen = !isBeyondRim(shadowMap.width, slice, piece);
+    if (seen && waitingCount < kMostWaiting && !isDrawnStraight(shadowMap.width, slice, piece) &&
         atomicAdd(draw.extraCount, 1u) < kMostExtraTriangles) {
-      PieceHalves halves = halvesOf(shadowMap.side, layer, piece, true);
+      PieceHalves halves = halvesOf(shadowMap.width, slice, piece, true);
       waiting[waitingCount] = halves.second;
       ++waitingCount;
       piece = halves.first;
@@ -61,9 +61,9 @@ void main() {
     }
     if (seen) {
       StraightTriangle result;
-      result.a = onLayer(piece.a);
-      result.b = onLayer(piece.b);
-      result.c = onLayer(piece.c);
+      result.a = onSlice(piece.a);
+      result.b = onSlice(piece.b);
+      result.c = onSlice(piece.c);
       result.uvA = piece.uvA;
       result.uvB = piece.uvB;
       result.uvC = piece.uvC;

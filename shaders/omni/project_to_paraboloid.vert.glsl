@@ -1,4 +1,4 @@
-// Projects a vertex to a layer of a paraboloid map, as in Brabec et al. 2002: vertices are right, but edges are drawn
+// Projects a vertex to a slice of a paraboloid map, as in Brabec et al. 2002: vertices are right, but edges are drawn
 // straight although they should be arcs. Kept for comparison with bound_in_paraboloid.comp.glsl.
 #include "shared/shade.glsl"
 

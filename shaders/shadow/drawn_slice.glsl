@@ -1,4 +1,4 @@
-// The slice that is drawn, and the rest of LayerPush (src/shadow/layer_shaders.h).
+// The slice that is drawn, and the rest of SlicePush (src/shadow/slice_shaders.h).
 #ifndef GNOMON_DRAWN_SLICE_GLSL
 #define GNOMON_DRAWN_SLICE_GLSL
 

@@ -1,6 +1,6 @@
 // One visibility shader for every map, bias and filter: G-buffer pixel -> receiver -> taps -> how much of them is lit.
 //
-// The method, the map's kind and its layer count are specialization constants, so that each pipeline holds one bias on
+// The method, the map's kind and its slice count are specialization constants, so that each pipeline holds one bias on
 // one map only, and reads the matrices of a single layer from constant addresses. kDiagnose also writes what decided
 // the pixel, of one tap; timings are taken without it.
 layout(constant_id = 0) const int kMethod = 0;   // kBias*
@@ -17,7 +17,7 @@ layout(constant_id = 2) const int kMapKind = 0;  // kMap*
 layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 
 layout(constant_id = 1) const int kDiagnose = 0;
-layout(constant_id = 3) const int kLayerCount = 1;
+layout(constant_id = 3) const int kSliceCount = 1;
 layout(constant_id = 6) const int kFilter = kShadowFilterNone;  // kShadowFilter*
 layout(constant_id = 7) const int kTapCount = 1;
 
@@ -31,11 +31,11 @@ layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagn
 
 ShadowMap specializedMap() {
   ShadowMap map = shadowMap;
-  map.layerCount = kLayerCount;
+  map.sliceCount = kSliceCount;
   return map;
 }
 
-// The share of the filter's taps that are lit; taps that no layer holds count for nothing. Without a filter the one tap
+// The share of the filter's taps that are lit; taps that no slice holds count for nothing. Without a filter the one tap
 // is the texel that holds the receiver, and with kDiagnose what it said. One path for all: the bias is compiled once,
 // and compiling is what a run waits for.
 float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2 pixel,
@@ -49,18 +49,18 @@ float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2
     FilterTap wanted = filterTap(kFilter, filterParams, position, seed, i, filterKnown);
     if (!filterKnown) return kUnknownVisibility;
     MapTexel found;
-    found.layer = point.layer;
+    found.slice = point.slice;
     found.texel = mapTexel(map, point.uv);
     found.held = true;
-    if (kFilter != kShadowFilterNone) found = mapTexelAcross(map, point.layer, wanted.texel, receiver.posL);
+    if (kFilter != kShadowFilterNone) found = mapTexelAcross(map, point.slice, wanted.texel, receiver.posL);
     if (!found.held) continue;
-    Tap tap = fetchTap(map, found.layer, found.texel);
+    Tap tap = fetchTap(map, found.slice, found.texel);
     bool known;
     bool tapLit = biasLit(kMethod, map, shade.bias, receiver, tap, known);
     if (kDiagnose == 1) {
       pixelDiagnosis.flags |= kPixelCovered | (tapLit ? kPixelLit : 0u) | (known ? 0u : kPixelUnknown);
-      if (receiverPlaneDepth(map, tap.layer, receiver, tap.ray).grazing) pixelDiagnosis.flags |= kPixelGrazing;
-      pixelDiagnosis.texel = packTexel(tap.layer, tap.texel);
+      if (receiverPlaneDepth(map, tap.slice, receiver, tap.ray).grazing) pixelDiagnosis.flags |= kPixelGrazing;
+      pixelDiagnosis.texel = packTexel(tap.slice, tap.texel);
     }
     if (!known) return kUnknownVisibility;
     if (tapLit) lit += wanted.weight;

@@ -28,15 +28,15 @@ struct PlaneDepth {
   bool grazing;
 };
 
-GNOMON_FN PlaneDepth receiverPlaneDepth(ShadowMap map, int layer, Receiver receiver, Ray ray) {
+GNOMON_FN PlaneDepth receiverPlaneDepth(ShadowMap map, int slice, Receiver receiver, Ray ray) {
   PlaneDepth result;
   float t = rayPlaneDistance(ray, receiver.posL, receiver.normalL);
   result.posL = ray.origin + ray.dir * t;
-  result.depth = mapDepth(map, layer, result.posL);
+  result.depth = mapDepth(map, slice, result.posL);
   result.grazing = !(t >= 0.0f && result.depth >= 0.0f && result.depth <= 1.0f);
   if (result.grazing) {
     result.posL = receiver.posL;
-    result.depth = mapDepth(map, layer, receiver.posL);
+    result.depth = mapDepth(map, slice, receiver.posL);
   }
   return result;
 }

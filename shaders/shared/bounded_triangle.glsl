@@ -1,4 +1,4 @@
-// The non-linear rasterizer's triangles: what a compute shader finds for a layer and the draw after it reads
+// The non-linear rasterizer's triangles: what a compute shader finds for a slice and the draw after it reads
 // (src/shadow/bounded_draws.h).
 #ifndef GNOMON_BOUNDED_TRIANGLE_GLSL
 #define GNOMON_BOUNDED_TRIANGLE_GLSL
@@ -19,7 +19,7 @@ struct BoundedDraw {
 };
 const uint kMostExtraTriangles = 1u << 18u;  // room for them in a batch
 
-// Four corners that enclose a triangle's projection, on the layer's square: (-1, -1) is where u = v = 0.
+// Four corners that enclose a triangle's projection, on the slice's square: (-1, -1) is where u = v = 0.
 struct BoundedTriangle {
   vec2 p0, p1, p2, p3;       // in order around it
   vec3 sideA, sideB, sideC;  // ray_triangle.glsl

@@ -29,7 +29,7 @@ const int kPassPeel = 2;     // the same: the shader lets through, the depth tes
 // One look-up: a texel, the ray through its centre, and what its channels hold. A channel that the map lacks, or that
 // nobody asks for, is as in a texel in which nothing was drawn.
 struct Tap {
-  int layer;  // the array slice
+  int slice;  // the array slice
   ivec2 texel;
   Ray ray;
   float z1;     // nearest depth; 1 where there is none
@@ -39,7 +39,7 @@ struct Tap {
 
 GNOMON_FN Tap emptyTap(int slice, ivec2 texel, Ray ray) {
   Tap tap;
-  tap.layer = slice;
+  tap.slice = slice;
   tap.texel = texel;
   tap.ray = ray;
   tap.z1 = 1.0f;

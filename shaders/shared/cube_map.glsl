@@ -1,14 +1,14 @@
-// Cube maps: six faces of 90 degrees around a point light, in the layer order and orientation of Vulkan's cube maps.
+// Cube maps: six faces of 90 degrees around a point light, in the slice order and orientation of Vulkan's cube maps.
 // L has the world's axes. Part of shared/map.glsl, which includes it after the structs.
 //
-//     layer   0   1   2   3   4   5       a face is seen from the light; clip space is (s, t, depth, m):
+//     slice   0   1   2   3   4   5       a face is seen from the light; clip space is (s, t, depth, m):
 //     face   +X  -X  +Y  -Y  +Z  -Z       u = (s/m + 1)/2, v = (t/m + 1)/2, m = metres along the face's axis
 //       s    -z  +z  +x  +x  +x  -x
 //       t    -y  -y  +z  -z  -y  -y       "Vulkan 1.3", section 16.5.4, table "Cube map face and coordinate selection".
 //       m    +x  -x  +y  -y  +z  -z       Read from outside: the faces mirror what a camera would see.
 //
-// Choosing signs and components rounds nothing, so that (s, t, m) are the very bits that the layer's clipFromLight,
-// whose entries but those of depth are 0 and +-1, gives the rasterizer; and no matrix is fetched by a layer that
+// Choosing signs and components rounds nothing, so that (s, t, m) are the very bits that the slice's clipFromLight,
+// whose entries but those of depth are 0 and +-1, gives the rasterizer; and no matrix is fetched by a slice that
 // differs from pixel to pixel.
 #ifndef GNOMON_CUBE_MAP_GLSL
 #define GNOMON_CUBE_MAP_GLSL
@@ -19,8 +19,8 @@
 GNOMON_SHARED_BEGIN
 
 // A point in a face's own coordinates: s, t, m.
-GNOMON_FN vec3 cubeFaceFromLight(int layer, vec3 posL) {
-  switch (layer) {
+GNOMON_FN vec3 cubeFaceFromLight(int slice, vec3 posL) {
+  switch (slice) {
     case 0:
       return vec3(-posL.z, -posL.y, posL.x);
     case 1:
@@ -35,8 +35,8 @@ GNOMON_FN vec3 cubeFaceFromLight(int layer, vec3 posL) {
   return vec3(-posL.x, -posL.y, -posL.z);
 }
 
-GNOMON_FN vec3 cubeLightFromFace(int layer, vec3 stm) {
-  switch (layer) {
+GNOMON_FN vec3 cubeLightFromFace(int slice, vec3 stm) {
+  switch (slice) {
     case 0:
       return vec3(stm.z, -stm.y, -stm.x);
     case 1:
@@ -63,40 +63,40 @@ GNOMON_FN int cubeFace(vec3 posL) {
 
 GNOMON_FN MapPoint cubeProject(vec3 posL) {
   MapPoint point;
-  point.layer = cubeFace(posL);
-  vec3 stm = cubeFaceFromLight(point.layer, posL);
+  point.slice = cubeFace(posL);
+  vec3 stm = cubeFaceFromLight(point.slice, posL);
   point.covered = stm.z > 0.0f;  // but the light's own place
   point.uv = vec2(stm.x / stm.z * 0.5f + 0.5f, stm.y / stm.z * 0.5f + 0.5f);
   return point;
 }
 
 // uv beyond the face's edge continue its plane.
-GNOMON_FN Ray cubeTexelRay(ShadowMap map, int layer, vec2 uv) {
-  vec3 acrossL = cubeLightFromFace(layer, vec3(uv.x * 2.0f - 1.0f, uv.y * 2.0f - 1.0f, 1.0f));
+GNOMON_FN Ray cubeTexelRay(ShadowMap map, int slice, vec2 uv) {
+  vec3 acrossL = cubeLightFromFace(slice, vec3(uv.x * 2.0f - 1.0f, uv.y * 2.0f - 1.0f, 1.0f));
   Ray ray;
   ray.dir = unitVector(acrossL);
   ray.origin = mapKind(map) == kMapCubeRadial ? ray.dir * map.zNear : acrossL * map.zNear;
   return ray;
 }
 
-GNOMON_FN float cubeDepth(ShadowMap map, int layer, vec3 posL) {
+GNOMON_FN float cubeDepth(ShadowMap map, int slice, vec3 posL) {
   if (mapKind(map) == kMapCubeRadial) return (length(posL) - map.zNear) / (map.zFar - map.zNear);
-  float m = cubeFaceFromLight(layer, posL).z;
+  float m = cubeFaceFromLight(slice, posL).z;
   return (map.clipDepth.x * m + map.clipDepth.y) / m;
 }
 
 // Hyperbolic: (x + y / m)' = -y m' / m^2, equation 10 of Dou et al. 2014 where the ray is the face's axis.
-GNOMON_FN float cubeDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) {
+GNOMON_FN float cubeDepthSlope(ShadowMap map, int slice, vec3 posL, vec3 rayDir) {
   if (mapKind(map) == kMapCubeRadial) return 1.0f / (map.zFar - map.zNear);
-  float m = cubeFaceFromLight(layer, posL).z;
-  float rate = cubeFaceFromLight(layer, rayDir).z;
+  float m = cubeFaceFromLight(slice, posL).z;
+  float rate = cubeFaceFromLight(slice, rayDir).z;
   return -map.clipDepth.y * rate / (m * m);
 }
 
-GNOMON_FN float cubeDistance(ShadowMap map, int layer, Ray ray, float depth) {
+GNOMON_FN float cubeDistance(ShadowMap map, int slice, Ray ray, float depth) {
   if (mapKind(map) == kMapCubeRadial) return depth * (map.zFar - map.zNear);
   float m = map.clipDepth.y / (depth - map.clipDepth.x);
-  return (m - cubeFaceFromLight(layer, ray.origin).z) / cubeFaceFromLight(layer, ray.dir).z;
+  return (m - cubeFaceFromLight(slice, ray.origin).z) / cubeFaceFromLight(slice, ray.dir).z;
 }
 
 GNOMON_SHARED_END

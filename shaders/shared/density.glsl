@@ -45,7 +45,7 @@ GNOMON_FN vec2 rayWithinBounds(DensityPlace place, vec3 originW, vec3 dirW, floa
 // hemisphere cut to the cone of the bounds where the light is outside, both where it is within.
 struct LightReach {
   vec3 axisW;       // unit
-  float halfWidth;  // of the layers, in units of (x, y) / (1 + |z|)
+  float halfWidth;  // of the slices, in units of (x, y) / (1 + |z|)
   int layers;       // 1 or 2
   float near_;      // metres, of the first radius
   float far_;       // of the last
@@ -66,7 +66,7 @@ GNOMON_FN mat3 basisAbout(vec3 axis) {
 }
 
 struct LightDirection {
-  int layer;
+  int slice;
   vec2 uv;  // [0, 1]^2
 };
 
@@ -75,20 +75,20 @@ GNOMON_FN LightDirection lightDirection(LightReach reach, vec3 dirW) {
   float z = dot(dirW, basis[2]);
   float scale = 0.5f / ((1.0f + abs(z)) * reach.halfWidth);
   LightDirection direction;
-  direction.layer = reach.layers == 2 && z < 0.0f ? 1 : 0;
+  direction.slice = reach.layers == 2 && z < 0.0f ? 1 : 0;
   direction.uv = vec2(dot(dirW, basis[0]) * scale + 0.5f, dot(dirW, basis[1]) * scale + 0.5f);
   return direction;
 }
 
 // The inverse; beyond a hemisphere's rim its formula goes on below it.
-GNOMON_FN vec3 directionFromLight(LightReach reach, int layer, vec2 uv) {
+GNOMON_FN vec3 directionFromLight(LightReach reach, int slice, vec2 uv) {
   mat3 basis = basisAbout(reach.axisW);
   float x = (2.0f * uv.x - 1.0f) * reach.halfWidth;
   float y = (2.0f * uv.y - 1.0f) * reach.halfWidth;
   float square = x * x + y * y;
   float z = (1.0f - square) / (1.0f + square);
   float across = 2.0f / (1.0f + square);
-  return basis[0] * (x * across) + basis[1] * (y * across) + basis[2] * (layer == 1 ? -z : z);
+  return basis[0] * (x * across) + basis[1] * (y * across) + basis[2] * (slice == 1 ? -z : z);
 }
 
 GNOMON_SHARED_END

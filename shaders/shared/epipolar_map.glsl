@@ -16,7 +16,7 @@ GNOMON_FN MapPoint epipolarMapProject(ShadowMap map, vec3 posL) {
   EpipolarGrid grid = map.epipolar;
   EpipolarPoint at = epipolarFromLight(grid.eyeDistance, posL);
   MapPoint point;
-  point.layer = 0;
+  point.slice = 0;
   point.uv = vec2(thetaSteps(grid, at.theta) / float(grid.thetaCount),
                   (at.phi - grid.phiLower) / (float(grid.phiCount) * grid.phiStep));
   point.covered = point.uv.x <= 1.0f && point.uv.y >= 0.0f && point.uv.y <= 1.0f && dot(posL, posL) > 0.0f;

@@ -33,7 +33,7 @@ const int kJitterWidth = 0;  // texels
 const int kKernelSamples = 16;  // of the exact kernels
 
 struct FilterTap {
-  ivec2 texel;  // may lie beyond the layer's edge
+  ivec2 texel;  // may lie beyond the slice's edge
   float weight;
 };
 

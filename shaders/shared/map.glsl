@@ -1,4 +1,4 @@
-// A shadow map is an array of layers and four functions (mapProject, mapTexelRay, mapDepth, mapDepthSlope) plus
+// A shadow map is an array of slices and four functions (mapProject, mapTexelRay, mapDepth, mapDepthSlope) plus
 // the inverse of depth along a ray. Everything else, biases, filters, labels, knows maps only through these.
 //
 // Frame: L, the light's. Its origin is the light (for a directional light a point near the scene), units are metres.
@@ -20,12 +20,12 @@ GNOMON_SHARED_BEGIN
 
 const int kBindMap = 16;  // MapUniforms; declared here, in every shader that includes this file
 
-const int kMapPlanar = 0;      // spot and directional: one clipFromLight matrix a layer
+const int kMapPlanar = 0;      // spot and directional: one clipFromLight matrix a slice
 const int kMapCube = 1;        // six faces, hyperbolic depth: z/w of the face's own projection
 const int kMapCubeRadial = 2;  // six faces, depth linear in the distance from the light
 const int kMapParaboloid = 3;  // two hemispheres, depth linear in the distance from the light
 const int kMapEpipolar = 4;    // the columns of a shadow volume: light rays (theta, phi), depth grows with alpha
-const int kMaxMapLayers = 6;
+const int kMaxMapSlices = 6;
 
 // A shader of one kind of map defines GNOMON_MAP_KIND, a constant: the branches below are then decided before any
 // function is inlined, and the other kinds' code is gone from its pipelines (src/gpu/specialize.h).
@@ -35,16 +35,16 @@ const int kMaxMapLayers = 6;
 #define mapKind(map) (map).kind
 #endif
 
-struct MapLayer {
+struct MapSlice {
   mat4 clipFromLight;  // Vulkan clip space: y down, z in [0, w]
   mat4 lightFromClip;
 };
 
 struct ShadowMap {
   int kind;  // kMap*
-  int layerCount;
-  int side;          // texels along u
-  int rows;          // texels along v: as many, but in epipolar maps
+  int sliceCount;
+  int width;         // texels along u
+  int height;        // texels along v: as many, but in epipolar maps
   float sceneScale;  // metres: the diagonal of the scene's bounds
   // Metres, where depth is 0 and 1: along a cube face's axis, or from the light where depth is radial. A planar map has
   // them in its matrices.
@@ -54,7 +54,7 @@ struct ShadowMap {
   // is made of factors the sum, and then the bits are no longer the rasterizer's.
   vec2 clipDepth;
   EpipolarGrid epipolar;
-  GNOMON_CPP_ONLY(MapLayer mapLayers[kMaxMapLayers];)
+  GNOMON_CPP_ONLY(MapSlice mapSlices[kMaxMapSlices];)
 };
 
 // A fitted map as a uniform buffer: lavapipe reads those once for all pixels of a group, where a storage buffer is read
@@ -67,11 +67,11 @@ GNOMON_CPP_ONLY(struct MapUniforms {
 GNOMON_GLSL_ONLY(layout(scalar, binding = kBindMap) uniform MapUniforms {
   LightFrame lightFrame;
   ShadowMap shadowMap;
-  MapLayer mapLayers[kMaxMapLayers];
+  MapSlice mapSlices[kMaxMapSlices];
 };)
 
 struct MapPoint {
-  int layer;
+  int slice;
   vec2 uv;  // [0,1]^2 where covered
   bool covered;
 };
@@ -85,7 +85,7 @@ GNOMON_SHARED_END
 
 GNOMON_SHARED_BEGIN
 
-// Which layer and where on it a point falls, and whether the map covers it at all.
+// Which slice and where on it a point falls, and whether the map covers it at all.
 GNOMON_FN MapPoint mapProject(ShadowMap map, vec3 posL) {
   switch (mapKind(map)) {
     case kMapPlanar:
@@ -99,22 +99,22 @@ GNOMON_FN MapPoint mapProject(ShadowMap map, vec3 posL) {
       return epipolarMapProject(map, posL);
   }
   MapPoint none;
-  none.layer = 0;
+  none.slice = 0;
   none.uv = vec2(0.0f, 0.0f);
   none.covered = false;
   return none;
 }
 
-// The light ray through uv of a layer. Its origin is where depth is 0.
-GNOMON_FN Ray mapTexelRay(ShadowMap map, int layer, vec2 uv) {
+// The light ray through uv of a slice. Its origin is where depth is 0.
+GNOMON_FN Ray mapTexelRay(ShadowMap map, int slice, vec2 uv) {
   switch (mapKind(map)) {
     case kMapPlanar:
-      return planarTexelRay(map, layer, uv);
+      return planarTexelRay(map, slice, uv);
     case kMapCube:
     case kMapCubeRadial:
-      return cubeTexelRay(map, layer, uv);
+      return cubeTexelRay(map, slice, uv);
     case kMapParaboloid:
-      return paraboloidTexelRay(map, layer, uv);
+      return paraboloidTexelRay(map, slice, uv);
     case kMapEpipolar:
       return epipolarMapTexelRay(map, uv);
   }
@@ -124,14 +124,14 @@ GNOMON_FN Ray mapTexelRay(ShadowMap map, int layer, vec2 uv) {
   return none;
 }
 
-// The depth a layer stores for a point; outside [0,1] before the near end and beyond the far one.
-GNOMON_FN float mapDepth(ShadowMap map, int layer, vec3 posL) {
+// The depth a slice stores for a point; outside [0,1] before the near end and beyond the far one.
+GNOMON_FN float mapDepth(ShadowMap map, int slice, vec3 posL) {
   switch (mapKind(map)) {
     case kMapPlanar:
-      return planarDepth(map, layer, posL);
+      return planarDepth(map, slice, posL);
     case kMapCube:
     case kMapCubeRadial:
-      return cubeDepth(map, layer, posL);
+      return cubeDepth(map, slice, posL);
     case kMapParaboloid:
       return paraboloidDepth(map, posL);
     case kMapEpipolar:
@@ -141,13 +141,13 @@ GNOMON_FN float mapDepth(ShadowMap map, int layer, vec3 posL) {
 }
 
 // d depth / d metre at a point, along the unit direction of a texel's ray: f'(x) of Dou et al. 2014, equation 2.
-GNOMON_FN float mapDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) {
+GNOMON_FN float mapDepthSlope(ShadowMap map, int slice, vec3 posL, vec3 rayDir) {
   switch (mapKind(map)) {
     case kMapPlanar:
-      return planarDepthSlope(map, layer, posL, rayDir);
+      return planarDepthSlope(map, slice, posL, rayDir);
     case kMapCube:
     case kMapCubeRadial:
-      return cubeDepthSlope(map, layer, posL, rayDir);
+      return cubeDepthSlope(map, slice, posL, rayDir);
     case kMapParaboloid:
       return paraboloidDepthSlope(map);
     case kMapEpipolar:
@@ -157,13 +157,13 @@ GNOMON_FN float mapDepthSlope(ShadowMap map, int layer, vec3 posL, vec3 rayDir) 
 }
 
 // Metres from the ray's origin to where the map's depth is `depth`: the inverse of mapDepth along a texel's ray.
-GNOMON_FN float mapDistance(ShadowMap map, int layer, Ray ray, float depth) {
+GNOMON_FN float mapDistance(ShadowMap map, int slice, Ray ray, float depth) {
   switch (mapKind(map)) {
     case kMapPlanar:
-      return planarDistance(map, layer, ray, depth);
+      return planarDistance(map, slice, ray, depth);
     case kMapCube:
     case kMapCubeRadial:
-      return cubeDistance(map, layer, ray, depth);
+      return cubeDistance(map, slice, ray, depth);
     case kMapParaboloid:
       return paraboloidDistance(map, depth);
     case kMapEpipolar:
@@ -172,49 +172,49 @@ GNOMON_FN float mapDistance(ShadowMap map, int layer, Ray ray, float depth) {
   return 0.0f;
 }
 
-GNOMON_FN vec2 mapTexelCounts(ShadowMap map) { return vec2(float(map.side), float(map.rows)); }
+GNOMON_FN vec2 mapTexelCounts(ShadowMap map) { return vec2(float(map.width), float(map.height)); }
 
 // The texel that holds uv; uv = 1 belongs to the last one.
 GNOMON_FN ivec2 mapTexel(ShadowMap map, vec2 uv) {
-  return ivec2(clamp(int(floor(uv.x * float(map.side))), 0, map.side - 1),
-               clamp(int(floor(uv.y * float(map.rows))), 0, map.rows - 1));
+  return ivec2(clamp(int(floor(uv.x * float(map.width))), 0, map.width - 1),
+               clamp(int(floor(uv.y * float(map.height))), 0, map.height - 1));
 }
 
 GNOMON_FN vec2 mapTexelCenter(ShadowMap map, ivec2 texel) {
-  return vec2((float(texel.x) + 0.5f) / float(map.side), (float(texel.y) + 0.5f) / float(map.rows));
+  return vec2((float(texel.x) + 0.5f) / float(map.width), (float(texel.y) + 0.5f) / float(map.height));
 }
 
-// Whether a layer draws a texel of its rectangle, by the centre in texels, which the rasterizer has at hand: with the
+// Whether a slice draws a texel of its rectangle, by the centre in texels, which the rasterizer has at hand: with the
 // texel's numbers instead, the exact drawing of a paraboloid took a sixteenth longer.
 GNOMON_FN bool mapHoldsTexelAt(ShadowMap map, vec2 center) {
   return map.kind != kMapParaboloid || paraboloidHoldsTexelAt(map, center);
 }
 
-// Whether a layer draws this texel: it lies on its rectangle, and where the layer is less than that, within it.
-GNOMON_FN bool mapHoldsTexel(ShadowMap map, int layer, ivec2 texel) {
+// Whether a slice draws this texel: it lies on its rectangle, and where the slice is less than that, within it.
+GNOMON_FN bool mapHoldsTexel(ShadowMap map, int slice, ivec2 texel) {
   if (!mapHoldsTexelAt(map, vec2(float(texel.x) + 0.5f, float(texel.y) + 0.5f))) return false;
-  return layer < map.layerCount && texel.x >= 0 && texel.y >= 0 && texel.x < map.side && texel.y < map.rows;
+  return slice < map.sliceCount && texel.x >= 0 && texel.y >= 0 && texel.x < map.width && texel.y < map.height;
 }
 
 struct MapTexel {
-  int layer;
+  int slice;
   ivec2 texel;
-  bool held;  // by some layer
+  bool held;  // by some slice
 };
 
-// The texel that a look-up for a receiver at posL means, which may lie beyond its layer's edge: there the ray of the
+// The texel that a look-up for a receiver at posL means, which may lie beyond its slice's edge: there the ray of the
 // missing texel, by the same formula continued, is followed to where it passes the receiver, and that point looked up
-// in whatever layer holds it. So a filter that crosses a cube's edge, a paraboloid's rim, a cascade's border or theta's
+// in whatever slice holds it. So a filter that crosses a cube's edge, a paraboloid's rim, a cascade's border or theta's
 // seam reads what the light sees there.
-GNOMON_FN MapTexel mapTexelAcross(ShadowMap map, int layer, ivec2 texel, vec3 posL) {
+GNOMON_FN MapTexel mapTexelAcross(ShadowMap map, int slice, ivec2 texel, vec3 posL) {
   MapTexel found;
-  found.layer = layer;
+  found.slice = slice;
   found.texel = texel;
-  found.held = mapHoldsTexel(map, layer, texel);
+  found.held = mapHoldsTexel(map, slice, texel);
   if (!found.held) {
-    Ray ray = mapTexelRay(map, layer, mapTexelCenter(map, texel));
+    Ray ray = mapTexelRay(map, slice, mapTexelCenter(map, texel));
     MapPoint point = mapProject(map, ray.origin + ray.dir * dot(posL - ray.origin, ray.dir));
-    found.layer = point.layer;
+    found.slice = point.slice;
     found.texel = mapTexel(map, point.uv);
     found.held = point.covered;
   }
@@ -225,7 +225,7 @@ GNOMON_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(gnomon::glsl::ShadowMap) == 76 + 6 * 128);
-static_assert(offsetof(gnomon::glsl::ShadowMap, mapLayers) == 76);
+static_assert(offsetof(gnomon::glsl::ShadowMap, mapSlices) == 76);
 static_assert(sizeof(gnomon::glsl::MapUniforms) == 48 + 844);
 #endif
 #endif

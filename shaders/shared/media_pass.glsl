@@ -31,15 +31,15 @@ const int kTableGroupSize = 8;    // rows of the table
 const int kTableRows = 385;
 const int kTableColumns = 513;
 
-// Of the table of density between the light and points about it: directions a side of a layer, whose outer ones lie on
+// Of the table of density between the light and points about it: directions a side of a slice, whose outer ones lie on
 // its border, and radii. Turbulence of 128 voxels along the scene with the lamp amid it, rms of the picture against
 // depths summed anew, in thousandths of the mean: 1.6; 64 radii of 64 x 64: 5.1; 32 radii of 128 x 128: 3.1, of 64 x
 // 64: 5.8, 16 of 32 x 32: 25.
 const int kLightDepthSide = 128;
 const int kLightDepthRadii = 64;
 
-GNOMON_FN uint lightDepthIndex(int layer, int radius, int x, int y) {
-  return uint(((layer * kLightDepthRadii + radius) * kLightDepthSide + y) * kLightDepthSide + x);
+GNOMON_FN uint lightDepthIndex(int slice, int radius, int x, int y) {
+  return uint(((slice * kLightDepthRadii + radius) * kLightDepthSide + y) * kLightDepthSide + x);
 }
 
 struct MediaUniforms {

@@ -1,8 +1,8 @@
-// Four corners that enclose what a triangle covers of a layer of a paraboloid map, on the layer's plane (x, y), rim at
+// Four corners that enclose what a triangle covers of a slice of a paraboloid map, on the slice's plane (x, y), rim at
 // 1: what the rasterizer is given. It may enclose more, since each texel is decided by its own ray
 // (ray_triangle.glsl), never less.
 //
-// Great circles project to circles: with n = (n.x, n.y, n.w) unit (w along the layer's axis) and c = (n.x, n.y)/n.w
+// Great circles project to circles: with n = (n.x, n.y, n.w) unit (w along the slice's axis) and c = (n.x, n.y)/n.w
 //     n . (2 x, 2 y, 1 - x^2 - y^2) = 0
 // is the circle about c of radius 1/|n.w|, which meets the rim at two opposite points.
 #ifndef GNOMON_PARABOLOID_BOUND_GLSL
@@ -23,8 +23,8 @@ GNOMON_FN QuadBound emptyBound() {
   return bound;
 }
 
-// A corner in the layer's frame: third component along the axis it looks.
-GNOMON_FN vec3 layerFromLight(int layer, vec3 posL) { return vec3(posL.x, posL.y, posL.z * paraboloidAxisZ(layer)); }
+// A corner in the slice's frame: third component along the axis it looks.
+GNOMON_FN vec3 sliceFromLight(int slice, vec3 posL) { return vec3(posL.x, posL.y, posL.z * paraboloidAxisZ(slice)); }
 
 // How far the arc between two points of the disc bulges from its chord. The arc is at most half its circle, since the
 // circle meets the rim at opposite points: sagitta = r - sqrt(r^2 - h^2), h half the chord.
@@ -135,7 +135,7 @@ GNOMON_FN Box2 includingEdge(Box2 box, vec3 p, vec3 q, float rim) {
 
 // Some corners behind the light: the box of the part within the rim, whose outermost points are corners, places where
 // an arc runs farthest or crosses the rim, and places of the rim inside the triangle.
-GNOMON_FN QuadBound rimBound(int layer, LightTriangle triangle, vec3 a, vec3 b, vec3 c, float rim, float margin) {
+GNOMON_FN QuadBound rimBound(int slice, LightTriangle triangle, vec3 a, vec3 b, vec3 c, float rim, float margin) {
   Box2 box;
   box.low = vec2(2.0f, 2.0f);
   box.high = vec2(-2.0f, -2.0f);
@@ -149,7 +149,7 @@ GNOMON_FN QuadBound rimBound(int layer, LightTriangle triangle, vec3 a, vec3 b, 
   for (int i = 0; i < 4; ++i) {
     float along = i < 2 ? rim : -rim;
     vec2 at = (i & 1) == 0 ? vec2(along, 0.0f) : vec2(0.0f, along);
-    vec3 dir = layerFromLight(layer, vec3(2.0f * at.x, 2.0f * at.y, 1.0f - rim * rim));
+    vec3 dir = sliceFromLight(slice, vec3(2.0f * at.x, 2.0f * at.y, 1.0f - rim * rim));
     if (isWithin(sideDistances(triangle, dir))) box = including(box, at);
   }
   if (box.low.x > box.high.x) return emptyBound();
@@ -163,15 +163,15 @@ GNOMON_FN QuadBound rimBound(int layer, LightTriangle triangle, vec3 a, vec3 b, 
   return bound;
 }
 
-GNOMON_FN QuadBound paraboloidBound(int side, int layer, LightTriangle triangle) {
+GNOMON_FN QuadBound paraboloidBound(int side, int slice, LightTriangle triangle) {
   // Centres of texels that the rim touches lie at most half a diagonal, 0.71 texels, beyond it; a texel is 2 / side.
   float rim = 1.0f + 1.5f / float(side);
   // The rasterizer rounds corners to 1/256 of a texel, and the corners here are good to a few 1e-7; those of pieces
   // (paraboloid_pieces.glsl) to 2^-23 times the 32 that isWorthHalving allows, 4e-6.
   float margin = 0.0625f / float(side) + 5e-6f;
-  vec3 a = layerFromLight(layer, triangle.a);
-  vec3 b = layerFromLight(layer, triangle.b);
-  vec3 c = layerFromLight(layer, triangle.c);
+  vec3 a = sliceFromLight(slice, triangle.a);
+  vec3 b = sliceFromLight(slice, triangle.b);
+  vec3 c = sliceFromLight(slice, triangle.c);
   float la = length(a);
   float lb = length(b);
   float lc = length(c);
@@ -179,7 +179,7 @@ GNOMON_FN QuadBound paraboloidBound(int side, int layer, LightTriangle triangle)
   float rimW = (1.0f - rim * rim) / (1.0f + rim * rim);
   if (a.z < rimW * la && b.z < rimW * lb && c.z < rimW * lc) return emptyBound();
   if (a.z < 0.0f || b.z < 0.0f || c.z < 0.0f || la == 0.0f || lb == 0.0f || lc == 0.0f)
-    return rimBound(layer, triangle, a, b, c, rim, margin);
+    return rimBound(slice, triangle, a, b, c, rim, margin);
   vec2 pa = vec2(a.x, a.y) * (1.0f / (la + a.z));
   vec2 pb = vec2(b.x, b.y) * (1.0f / (lb + b.z));
   vec2 pc = vec2(c.x, c.y) * (1.0f / (lc + c.z));

@@ -3,7 +3,7 @@
 // Heidrich, Seidel, "View-independent environment maps", 1998; Brabec, Annen, Seidel, "Shadow Mapping for Hemispherical
 // and Omnidirectional Light Sources", 2002. Part of shared/map.glsl, which includes it after the structs.
 //
-//     layer 0 looks along -z of L, layer 1 along +z; on both, with d the unit direction and w = |d.z|
+//     slice 0 looks along -z of L, slice 1 along +z; on both, with d the unit direction and w = |d.z|
 //
 //       (x, y) = (d.x, d.y) / (1 + w)        u = (1 + x)/2, v = (1 - y)/2
 //
@@ -11,7 +11,7 @@
 //         |  .-----.  |   pole: circles on the sphere stay circles, so a triangle's straight edge, a great circle,
 //         | /       \ |   becomes a circular arc, and angles are kept. Its inverse needs no root:
 //         | |   +   | |
-//         | \       / |   d = (2 x, 2 y, 1 - x^2 - y^2) / (1 + x^2 + y^2)     (third component along the layer's axis)
+//         | \       / |   d = (2 x, 2 y, 1 - x^2 - y^2) / (1 + x^2 + y^2)     (third component along the slice's axis)
 //         |  '-----'  |
 //         +-----------+   Beyond the rim the same formula goes on over the other hemisphere.
 //
@@ -28,26 +28,26 @@
 
 GNOMON_SHARED_BEGIN
 
-// The sign of z of the layer's axis.
-GNOMON_FN float paraboloidAxisZ(int layer) { return layer == 0 ? -1.0f : 1.0f; }
+// The sign of z of the slice's axis.
+GNOMON_FN float paraboloidAxisZ(int slice) { return slice == 0 ? -1.0f : 1.0f; }
 
 GNOMON_FN MapPoint paraboloidProject(vec3 posL) {
   float radius = length(posL);
   float scale = 1.0f / (radius + abs(posL.z));
   MapPoint point;
-  point.layer = posL.z <= 0.0f ? 0 : 1;
+  point.slice = posL.z <= 0.0f ? 0 : 1;
   point.uv = vec2(posL.x * scale * 0.5f + 0.5f, 0.5f - posL.y * scale * 0.5f);
   point.covered = radius > 0.0f;  // but the light's own place
   return point;
 }
 
-GNOMON_FN Ray paraboloidTexelRay(ShadowMap map, int layer, vec2 uv) {
+GNOMON_FN Ray paraboloidTexelRay(ShadowMap map, int slice, vec2 uv) {
   float x = uv.x * 2.0f - 1.0f;
   float y = 1.0f - uv.y * 2.0f;
   float square = x * x + y * y;
   float scale = 1.0f / (1.0f + square);
   Ray ray;
-  ray.dir = vec3(2.0f * x * scale, 2.0f * y * scale, paraboloidAxisZ(layer) * (1.0f - square) * scale);
+  ray.dir = vec3(2.0f * x * scale, 2.0f * y * scale, paraboloidAxisZ(slice) * (1.0f - square) * scale);
   ray.origin = ray.dir * map.zNear;
   return ray;
 }
@@ -62,9 +62,9 @@ GNOMON_FN float paraboloidDistance(ShadowMap map, float depth) { return depth * 
 
 // Whether the disc touches the texel around `center` (texels): the nearest point of its square lies within the rim. A
 // millionth is in hand for the rounding of paraboloidProject, so that every point it covers lies on a texel that is
-// drawn. Lengths in half texels from the layer's centre, without rounding.
+// drawn. Lengths in half texels from the slice's centre, without rounding.
 GNOMON_FN bool paraboloidHoldsTexelAt(ShadowMap map, vec2 center) {
-  float side = float(map.side);
+  float side = float(map.width);
   float x = max(abs(2.0f * center.x - side) - 1.0f, 0.0f);
   float y = max(abs(2.0f * center.y - side) - 1.0f, 0.0f);
   return x * x + y * y <= side * side * 1.000001f;

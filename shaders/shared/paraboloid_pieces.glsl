@@ -1,4 +1,4 @@
-// Triangles cut into pieces whose edges are nearly straight on a layer of a paraboloid map.
+// Triangles cut into pieces whose edges are nearly straight on a slice of a paraboloid map.
 //
 // An edge's arc has the curvature |n.w| (paraboloid_bound.glsl) and leaves its chord by the sagitta, at most |n.w|
 // chord^2 / 4: cut in the middle, a quarter of that is left on each side. So a triangle is cut in two from the
@@ -44,7 +44,7 @@ GNOMON_FN vec2 arcMiddleUv(vec3 p, vec3 q, vec2 uvP, vec2 uvQ) {
 //    triangle it is up to c^2 / 3 too much, which is 1.6 / side of distance.
 GNOMON_FN float drawnRim(int side) { return 1.0f + 6.5f / float(side); }
 
-// Along the layer's axis over distance, where what is drawn ends; bounds need no more than the texels and half of one.
+// Along the slice's axis over distance, where what is drawn ends; bounds need no more than the texels and half of one.
 GNOMON_FN float piecesRimW(int side, bool drawnStraight) {
   float rim = drawnStraight ? drawnRim(side) : 1.0f + 2.5f / float(side);
   return (1.0f - rim * rim) / (1.0f + rim * rim);
@@ -53,7 +53,7 @@ GNOMON_FN float piecesRimW(int side, bool drawnStraight) {
 // Wider than two discs; the wider the angle the more, so that the longest edge is cut first.
 GNOMON_FN float bendBeyondMeasure(vec3 p, vec3 q) { return 5.0f - dot(p, q) / (length(p) * length(q)); }
 
-// How far, on the layer's plane, an edge drawn straight is from where it belongs. Ends in the layer's frame.
+// How far, on the slice's plane, an edge drawn straight is from where it belongs. Ends in the slice's frame.
 // Nothing of an edge beyond the rim is seen; of one that reaches there the projection may be anywhere until it
 // spans less than 60 degrees.
 GNOMON_FN float edgeBend(vec3 p, vec3 q, float rimW) {
@@ -86,10 +86,10 @@ struct Bends {
   float a, b, c;  // of the edges opposite
 };
 
-GNOMON_FN Bends pieceBends(int side, int layer, Piece piece, bool drawnStraight) {
-  vec3 a = layerFromLight(layer, piece.a);
-  vec3 b = layerFromLight(layer, piece.b);
-  vec3 c = layerFromLight(layer, piece.c);
+GNOMON_FN Bends pieceBends(int side, int slice, Piece piece, bool drawnStraight) {
+  vec3 a = sliceFromLight(slice, piece.a);
+  vec3 b = sliceFromLight(slice, piece.b);
+  vec3 c = sliceFromLight(slice, piece.c);
   float rimW = piecesRimW(side, drawnStraight);
   Bends bends;
   bends.a = edgeBend(b, c, rimW);
@@ -109,8 +109,8 @@ struct PieceHalves {
   Piece first, second;
 };
 
-GNOMON_FN PieceHalves halvesOf(int side, int layer, Piece piece, bool drawnStraight) {
-  Bends bends = pieceBends(side, layer, piece, drawnStraight);
+GNOMON_FN PieceHalves halvesOf(int side, int slice, Piece piece, bool drawnStraight) {
+  Bends bends = pieceBends(side, slice, piece, drawnStraight);
   float worst = worstBend(bends);
   PieceHalves halves;
   halves.first = piece;
@@ -133,14 +133,14 @@ GNOMON_FN PieceHalves halvesOf(int side, int layer, Piece piece, bool drawnStrai
 const int kMostWaiting = 24;
 
 // A piece may be drawn with straight edges where all of them stay within half a texel, which is 1 / side.
-GNOMON_FN bool isDrawnStraight(int side, int layer, Piece piece) {
-  return worstBend(pieceBends(side, layer, piece, true)) <= 1.0f / float(side);
+GNOMON_FN bool isDrawnStraight(int side, int slice, Piece piece) {
+  return worstBend(pieceBends(side, slice, piece, true)) <= 1.0f / float(side);
 }
 
 // Whether none of a piece is drawn.
-GNOMON_FN bool isBeyondRim(int side, int layer, Piece piece) {
+GNOMON_FN bool isBeyondRim(int side, int slice, Piece piece) {
   float rimW = piecesRimW(side, true);
-  float axis = paraboloidAxisZ(layer);
+  float axis = paraboloidAxisZ(slice);
   return piece.a.z * axis < rimW * length(piece.a) && piece.b.z * axis < rimW * length(piece.b) &&
          piece.c.z * axis < rimW * length(piece.c);
 }
@@ -160,12 +160,12 @@ GNOMON_FN float quadArea(vec2 p0, vec2 p1, vec2 p2, vec2 p3) {
 }
 
 // Whether two bounds of a piece's halves would enclose much less than the piece's own.
-GNOMON_FN bool isWorthHalving(int side, int layer, Piece piece, QuadBound bound) {
+GNOMON_FN bool isWorthHalving(int side, int slice, Piece piece, QuadBound bound) {
   float enclosed = quadArea(bound.p0, bound.p1, bound.p2, bound.p3);
   float wasted = enclosed;
-  vec3 a = layerFromLight(layer, piece.a);
-  vec3 b = layerFromLight(layer, piece.b);
-  vec3 c = layerFromLight(layer, piece.c);
+  vec3 a = sliceFromLight(slice, piece.a);
+  vec3 b = sliceFromLight(slice, piece.b);
+  vec3 c = sliceFromLight(slice, piece.c);
   float la = length(a);
   float lb = length(b);
   float lc = length(c);
@@ -175,7 +175,7 @@ GNOMON_FN bool isWorthHalving(int side, int layer, Piece piece, QuadBound bound)
     wasted -= quadArea(pa, vec2(b.x, b.y) * (1.0f / (lb + b.z)), vec2(c.x, c.y) * (1.0f / (lc + c.z)), pa);
   }
   if (wasted < kWastedShare * enclosed || wasted * 0.25f * float(side) * float(side) < kWastedTexels) return false;
-  Bends bends = pieceBends(side, layer, piece, false);
+  Bends bends = pieceBends(side, slice, piece, false);
   float worst = worstBend(bends);
   // A quarter of a texel's bend is nothing to gain by.
   if (worst * float(side) < 0.5f) return false;

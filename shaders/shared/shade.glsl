@@ -30,7 +30,7 @@ struct ShadeUniforms {
 
 // What decided a pixel: for labels, and for debugging.
 struct PixelDiagnosis {
-  uint texel;  // x | y << 14 | layer << 28
+  uint texel;  // x | y << 14 | slice << 28
   uint flags;  // kPixel*
 };
 const uint kPixelShaded = 1u;     // a surface that faces the light
@@ -40,13 +40,13 @@ const uint kPixelGrazing = 8u;    // the texel's ray does not meet the receiver'
 const uint kPixelUnknown = 16u;   // no such bias method
 const float kUnknownVisibility = -1.0f;  // painted magenta
 
-GNOMON_FN uint packTexel(int layer, ivec2 texel) {
-  return uint(texel.x) | (uint(texel.y) << 14u) | (uint(layer) << 28u);
+GNOMON_FN uint packTexel(int slice, ivec2 texel) {
+  return uint(texel.x) | (uint(texel.y) << 14u) | (uint(slice) << 28u);
 }
 
 GNOMON_FN ivec2 unpackTexel(uint word) { return ivec2(int(word & 16383u), int((word >> 14u) & 16383u)); }
 
-GNOMON_FN int unpackLayer(uint word) { return int(word >> 28u); }
+GNOMON_FN int unpackSlice(uint word) { return int(word >> 28u); }
 
 // Not unit: from a point of a surface towards the light.
 GNOMON_FN vec3 towardsLight(ShadeUniforms shade, vec3 posW) { return shade.lightW - posW * shade.positional; }

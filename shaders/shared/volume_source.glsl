@@ -24,8 +24,8 @@ GNOMON_FN vec3 sourceDirection(LightFrame volumeFrame, LightFrame sourceFrame, v
 // dirL in the map's frame.
 GNOMON_FN float alphaLookedUp(ShadowMap source, MapPoint point, float depth, vec3 dirS, vec3 dirL, float eyeDistance) {
   if (!point.covered || depth >= 1.0f) return noOccluder();
-  Ray ray = mapTexelRay(source, point.layer, point.uv);
-  float along = mapDistance(source, point.layer, ray, depth) + dot(ray.origin, dirS);
+  Ray ray = mapTexelRay(source, point.slice, point.uv);
+  float along = mapDistance(source, point.slice, ray, depth) + dot(ray.origin, dirS);
   return epipolarFromLight(eyeDistance, dirL * along).alpha;
 }
 

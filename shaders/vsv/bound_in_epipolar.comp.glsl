@@ -11,22 +11,22 @@ layout(scalar, binding = kBindBoundedTriangles) writeonly buffer Found { Bounded
 layout(scalar, binding = kBindBoundedDraw) buffer DrawArguments { BoundedDraw draw; };
 
 layout(push_constant, scalar) uniform Push {
-  int layer;
+  int slice;
   int facing;  // 1: only what winds counter-clockwise seen from the light, -1: only the rest, 0: both
   uint firstTriangle;
   uint triangleCount;
   uint instance;
 };
 
-// From columns to the layer's square.
-vec2 onLayer(float theta, float phi) { return vec2(theta, phi) / mapTexelCounts(shadowMap) * 2.0f - 1.0f; }
+// From columns to the slice's square.
+vec2 onSlice(float theta, float phi) { return vec2(theta, phi) / mapTexelCounts(shadowMap) * 2.0f - 1.0f; }
 
 void append(LightTriangle triangle, uint index, vec2 low, vec2 high) {
   BoundedTriangle result;
-  result.p0 = onLayer(low.x, low.y);
-  result.p1 = onLayer(high.x, low.y);
-  result.p2 = onLayer(high.x, high.y);
-  result.p3 = onLayer(low.x, high.y);
+  result.p0 = onSlice(low.x, low.y);
+  result.p1 = onSlice(high.x, low.y);
+  result.p2 = onSlice(high.x, high.y);
+  result.p3 = onSlice(low.x, high.y);
   result.sideA = triangle.sideA;
   result.sideB = triangle.sideB;
   result.sideC = triangle.sideC;

@@ -13,7 +13,7 @@ layout(scalar, binding = kBindSourceMap) uniform SourceUniforms {
   LightFrame sourceFrame;
   ShadowMap sourceMap;
 };
-layout(binding = kBindMapDepth) uniform texture2DArray mapDepthLayers;
+layout(binding = kBindMapDepth) uniform texture2DArray mapDepthSlices;
 layout(scalar, binding = kBindOccluders) writeonly buffer Occluders { float occluders[]; };
 
 float lookedUp(vec3 dirL) {
@@ -21,18 +21,18 @@ float lookedUp(vec3 dirL) {
   map.kind = kSourceKind;
   vec3 dirS = sourceDirection(lightFrame, sourceFrame, dirL);
   MapPoint point = mapProject(map, dirS);
-  float depth = texelFetch(mapDepthLayers, ivec3(mapTexel(map, point.uv), point.layer), 0).x;
+  float depth = texelFetch(mapDepthSlices, ivec3(mapTexel(map, point.uv), point.slice), 0).x;
   return alphaLookedUp(map, point, depth, dirS, dirL, shadowMap.epipolar.eyeDistance);
 }
 
-float drawn(ivec2 column) { return alphaDrawn(shadowMap.epipolar, texelFetch(mapDepthLayers, ivec3(column, 0), 0).x); }
+float drawn(ivec2 column) { return alphaDrawn(shadowMap.epipolar, texelFetch(mapDepthSlices, ivec3(column, 0), 0).x); }
 
 void main() {
   ivec2 column = ivec2(gl_GlobalInvocationID.xy);
   ShadowMap map = shadowMap;
   map.kind = kMapEpipolar;
-  if (column.x >= map.side || column.y >= map.rows) return;
+  if (column.x >= map.width || column.y >= map.height) return;
   float alpha = kSourceKind == kMapEpipolar ? drawn(column)
                                             : lookedUp(mapTexelRay(map, 0, mapTexelCenter(map, column)).dir);
-  occluders[column.y * map.side + column.x] = alpha;
+  occluders[column.y * map.width + column.x] = alpha;
 }

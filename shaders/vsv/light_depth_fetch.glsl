@@ -18,8 +18,8 @@ float depthFromLight(LightReach reach, vec3 fromLight) {
   vec2 blend = at - vec2(texel);
   float depths[2];
   for (int n = 0; n < 2; ++n) {
-    uint first = lightDepthIndex(direction.layer, radius + n, texel.x, texel.y);
-    uint second = lightDepthIndex(direction.layer, radius + n, texel.x, texel.y + 1);
+    uint first = lightDepthIndex(direction.slice, radius + n, texel.x, texel.y);
+    uint second = lightDepthIndex(direction.slice, radius + n, texel.x, texel.y + 1);
     depths[n] = mix(mix(lightDepth[first], lightDepth[first + 1u], blend.x),
                     mix(lightDepth[second], lightDepth[second + 1u], blend.x), blend.y);
   }

@@ -32,7 +32,7 @@ float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosi
   if (!fetchReceiver(pixel, id, receiver)) return 0.0f;
   pixelDiagnosis.flags = kPixelShaded;
   ShadowMap map = shadowMap;
-  map.layerCount = 1;
+  map.sliceCount = 1;
   MapPoint point = mapProject(map, receiver.posL);
   if (!point.covered) return 1.0f;
   ivec2 column = mapTexel(map, point.uv);

@@ -15,7 +15,7 @@ namespace gnomon {
 
 struct MapFlags {
   std::string maps;
-  int mapSize = 1024;  // texels of a layer's side
+  int mapSize = 1024;  // texels of a slice's side
   long mapTexels = 0;
   std::string cull = "solids";
   MapOptions options;

@@ -52,11 +52,11 @@ float filteredPixel(const Kernel& kernel, const SurfaceSample& sample, bool lit,
     const glm::vec2 offset = glsl::kernelOffset(kernel.filter.id, kernel.filter.params, seed, i, known);
     GNOMON_CHECK(known);
     const glm::vec2 uv = point.uv + offset / glsl::mapTexelCounts(map);
-    const glsl::Ray rayL = glsl::mapTexelRay(map, point.layer, uv);
+    const glsl::Ray rayL = glsl::mapTexelRay(map, point.slice, uv);
     const RayD ray = rayToWorld(kernel, rayL);
     const double approach = glm::dot(sample.normalW, ray.dir);
     const double distance = glm::dot(sample.normalW, sample.positionW - ray.origin) / approach;
-    if (!(approach < 0.0) || glsl::receiverPlaneDepth(map, point.layer, receiver, rayL).grazing)
+    if (!(approach < 0.0) || glsl::receiverPlaneDepth(map, point.slice, receiver, rayL).grazing)
       litCount += lit ? 1 : 0;
     else
       segments[count++] = {ray, distance, sample.primitive, sample.normalW};

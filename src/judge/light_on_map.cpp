@@ -45,7 +45,7 @@ Verdict verdictOf(const glsl::PixelDiagnosis& pixel) {
 
 RayD texelRayW(const FittedMap& fitted, uint32_t texelWord) {
   const glm::vec2 uv = glsl::mapTexelCenter(fitted.map, glsl::unpackTexel(texelWord));
-  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, glsl::unpackLayer(texelWord), uv);
+  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, glsl::unpackSlice(texelWord), uv);
   const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
                                   glm::dvec3(fitted.frame.backW));
   return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),

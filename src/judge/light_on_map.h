@@ -27,7 +27,7 @@ struct Method {
 Method atDefaults(const BiasMethod& bias, const SceneView& view);
 
 struct MapSetup {
-  int side = 1024;  // texels of a layer
+  int side = 1024;  // texels of a slice
   MapOptions options = {};
   CullMode cull = CullMode::Solids;
   // What the map is fitted to; absent: the scored points that the camera sees; empty: the whole scene.

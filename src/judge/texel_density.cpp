@@ -10,9 +10,9 @@ namespace gnomon {
 namespace {
 
 // Where the ray through uv meets the receiver's plane, which lies before the light only if the distance is positive.
-std::optional<glm::dvec3> meetPlane(const FittedMap& fitted, int layer, const glm::dvec2& uv,
+std::optional<glm::dvec3> meetPlane(const FittedMap& fitted, int slice, const glm::dvec2& uv,
                                     const glm::dvec3& positionL, const glm::dvec3& normalL) {
-  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, layer, glm::vec2(uv));
+  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, slice, glm::vec2(uv));
   const double approach = glm::dot(normalL, glm::dvec3(ray.dir));
   const double distance = glm::dot(normalL, positionL - glm::dvec3(ray.origin)) / approach;
   if (!(distance > 0.0) || !std::isfinite(distance)) return std::nullopt;
@@ -26,13 +26,13 @@ std::optional<double> texelDensity(const FittedMap& fitted, const glm::dvec3& po
   const glm::dvec3 normalL(glsl::directionFromWorld(fitted.frame, glm::vec3(normalW)));
   const glsl::MapPoint point = glsl::mapProject(fitted.map, posL);
   if (!point.covered) return std::nullopt;
-  const double half = 0.5 / fitted.map.side;
+  const double half = 0.5 / fitted.map.width;
   glm::dvec3 edges[2];
   for (int axis = 0; axis < 2; ++axis) {
     glm::dvec2 step(0.0);
     step[axis] = half;
-    const auto after = meetPlane(fitted, point.layer, glm::dvec2(point.uv) + step, glm::dvec3(posL), normalL);
-    const auto before = meetPlane(fitted, point.layer, glm::dvec2(point.uv) - step, glm::dvec3(posL), normalL);
+    const auto after = meetPlane(fitted, point.slice, glm::dvec2(point.uv) + step, glm::dvec3(posL), normalL);
+    const auto before = meetPlane(fitted, point.slice, glm::dvec2(point.uv) - step, glm::dvec3(posL), normalL);
     if (!after || !before) return 0.0;
     edges[axis] = *after - *before;
   }

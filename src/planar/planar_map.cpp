@@ -1,7 +1,7 @@
 #include "planar/planar_map.h"
 
 #include "base/error.h"
-#include "planar/layer_points.h"
+#include "planar/slice_points.h"
 #include "planar/warp.h"
 #include "planar/window.h"
 
@@ -55,13 +55,13 @@ void checkPlanarOptions(const MapOptions& options) {
 constexpr double kRangeSlack = 1e-3;
 // The least range, of the scene's diagonal: a plane across the light's axis has none.
 constexpr double kLeastRange = 1e-6;
-// A receiver this share of the window's half beyond its edge may still round into the layer.
+// A receiver this share of the window's half beyond its edge may still round into the slice.
 constexpr double kEdgeSlack = 1e-3;
 
-struct LayerFit {
+struct SliceFit {
   glm::dmat3 clipFromPlane{1.0};
   glm::dvec4 depthRow{0.0};  // of clipFromLight
-  double zNear = 0.0;        // metres, of what the layer was fitted to
+  double zNear = 0.0;        // metres, of what the slice was fitted to
   double zFar = 1.0;
 };
 
@@ -70,9 +70,9 @@ glm::dvec4 lightRow(const glm::dvec3& r, bool perspective) {
   return perspective ? glm::dvec4(r.x, r.y, -r.z, 0.0) : glm::dvec4(r.x, r.y, 0.0, r.z);
 }
 
-glm::dmat4 clipFromLight(const LayerFit& layer, bool perspective) {
-  const glm::dmat3 rows = glm::transpose(layer.clipFromPlane);
-  return glm::transpose(glm::dmat4(lightRow(rows[0], perspective), lightRow(rows[1], perspective), layer.depthRow,
+glm::dmat4 clipFromLight(const SliceFit& slice, bool perspective) {
+  const glm::dmat3 rows = glm::transpose(slice.clipFromPlane);
+  return glm::transpose(glm::dmat4(lightRow(rows[0], perspective), lightRow(rows[1], perspective), slice.depthRow,
                                    lightRow(rows[2], perspective)));
 }
 
@@ -88,7 +88,7 @@ struct Covered {
   double w = 1.0;
 };
 
-// The receivers within a layer, whichever layer they were to go to: a finer layer answers for all it covers.
+// The receivers within a slice, whichever slice they were to go to: a finer slice answers for all it covers.
 std::vector<Covered> coveredReceivers(const FitInput& input, const AxisFrame& frame, const glm::dmat3& clipFromPlane) {
   std::vector<Covered> covered;
   for (const glm::dvec3& receiver : input.receiversW) {
@@ -103,59 +103,59 @@ std::vector<Covered> coveredReceivers(const FitInput& input, const AxisFrame& fr
 
 // Without a warp W is 1, and depth runs from 0 at zNear to 1 at zFar. With snapping the range is a step of a
 // series, as the texel's size is.
-void setDepthRow(LayerFit& layer, const AxisFrame& frame, double sceneScale, bool snap) {
-  // Of what the layer holds alone, so that the near end stays where it is while the layer does.
-  if (frame.perspective) layer.zNear *= 1.0 - kRangeSlack;
-  double range = layer.zFar - layer.zNear;
+void setDepthRow(SliceFit& slice, const AxisFrame& frame, double sceneScale, bool snap) {
+  // Of what the slice holds alone, so that the near end stays where it is while the slice does.
+  if (frame.perspective) slice.zNear *= 1.0 - kRangeSlack;
+  double range = slice.zFar - slice.zNear;
   range = std::max(range * (1.0 + 2.0 * kRangeSlack), range + kLeastRange * sceneScale);
   if (snap) range = snapLength(range);
-  if (!frame.perspective) layer.zNear -= kRangeSlack * range;
-  layer.zFar = layer.zNear + range;
-  layer.depthRow = frame.perspective ? glm::dvec4(0.0, 0.0, -layer.zFar, -layer.zFar * layer.zNear) / range
-                                     : glm::dvec4(0.0, 0.0, -1.0, -layer.zNear) / range;
+  if (!frame.perspective) slice.zNear -= kRangeSlack * range;
+  slice.zFar = slice.zNear + range;
+  slice.depthRow = frame.perspective ? glm::dvec4(0.0, 0.0, -slice.zFar, -slice.zFar * slice.zNear) / range
+                                     : glm::dvec4(0.0, 0.0, -1.0, -slice.zNear) / range;
 }
 
 // A warped sun's depth is (depth - zNear) / (reach W), anchored at the near end, where floats are finest:
 // what lies far from the camera, W large, has depths near 0 and keeps its digits. A warped spot's is 1 -
 // (1/depth - 1/zFar) / (reach W), anchored at the far end: anchored at the near end it would reach 1 only
 // beyond infinity where W is large.
-void setWarpedDepthRow(LayerFit& layer, const FitInput& input, const AxisFrame& frame, double sceneScale,
+void setWarpedDepthRow(SliceFit& slice, const FitInput& input, const AxisFrame& frame, double sceneScale,
                        std::span<const Covered> receivers, bool whole) {
   const bool spot = frame.perspective;
   if (spot)
-    layer.zFar *= 1.0 + kRangeSlack;
+    slice.zFar *= 1.0 + kRangeSlack;
   else
-    layer.zNear -= kRangeSlack * (layer.zFar - layer.zNear);
-  const double from = spot ? layer.zFar : layer.zNear;
+    slice.zNear -= kRangeSlack * (slice.zFar - slice.zNear);
+  const double from = spot ? slice.zFar : slice.zNear;
   double reach = 0.0;
   if (spot || whole)
     reach =
-        casterReach(input.scene, frame, layer.clipFromPlane, layer.zNear, from, spot ? Reach::Before : Reach::Behind);
+        casterReach(input.scene, frame, slice.clipFromPlane, slice.zNear, from, spot ? Reach::Before : Reach::Behind);
   for (const Covered& receiver : receivers)
     reach = std::max(reach, std::abs(frame.linearDepth(receiver.depth) - frame.linearDepth(from)) / receiver.w);
-  reach = std::max(reach * (1.0 + kRangeSlack), kLeastRange * (spot ? 1.0 / layer.zFar : sceneScale));
-  layer.depthRow = spot ? lightRow(glm::transpose(layer.clipFromPlane)[2], true) -
-                              glm::dvec4(0.0, 0.0, 1.0 / layer.zFar, 1.0) / reach
-                        : glm::dvec4(0.0, 0.0, -1.0, -layer.zNear) / reach;
+  reach = std::max(reach * (1.0 + kRangeSlack), kLeastRange * (spot ? 1.0 / slice.zFar : sceneScale));
+  slice.depthRow = spot ? lightRow(glm::transpose(slice.clipFromPlane)[2], true) -
+                              glm::dvec4(0.0, 0.0, 1.0 / slice.zFar, 1.0) / reach
+                        : glm::dvec4(0.0, 0.0, -1.0, -slice.zNear) / reach;
 }
 
-// From the nearest caster to the farthest receiver within the layer; but for a map that shall be whole (any
+// From the nearest caster to the farthest receiver within the slice; but for a map that shall be whole (any
 // fit but focused), to the farthest caster.
-LayerFit fitDepth(const FitInput& input, const AxisFrame& frame, const Bounds& bounds,
+SliceFit fitDepth(const FitInput& input, const AxisFrame& frame, const Bounds& bounds,
                   const glm::dmat3& clipFromPlane) {
   const double sceneScale = std::max(static_cast<double>(bounds.diagonal()), 1e-6);
   const double least = frame.perspective ? leastCasterDepth(bounds) : -4.0 * sceneScale;
   const std::vector<Covered> receivers = coveredReceivers(input, frame, clipFromPlane);
   const bool whole = input.options.get(kWindowFit) != WindowFit::Focused || receivers.empty();
-  LayerFit layer{.clipFromPlane = clipFromPlane, .zFar = frame.perspective ? least : -4.0 * sceneScale};
-  for (const Covered& receiver : receivers) layer.zFar = std::max(layer.zFar, receiver.depth);
-  if (whole) layer.zFar = farthestCasterDepth(input.scene, frame, clipFromPlane, layer.zFar);
-  layer.zNear = nearestCasterDepth(input.scene, frame, clipFromPlane, least, layer.zFar);
+  SliceFit slice{.clipFromPlane = clipFromPlane, .zFar = frame.perspective ? least : -4.0 * sceneScale};
+  for (const Covered& receiver : receivers) slice.zFar = std::max(slice.zFar, receiver.depth);
+  if (whole) slice.zFar = farthestCasterDepth(input.scene, frame, clipFromPlane, slice.zFar);
+  slice.zNear = nearestCasterDepth(input.scene, frame, clipFromPlane, least, slice.zFar);
   if (input.options.get(kWarp) == Warp::None)
-    setDepthRow(layer, frame, sceneScale, input.options.get(kSnap));
+    setDepthRow(slice, frame, sceneScale, input.options.get(kSnap));
   else
-    setWarpedDepthRow(layer, input, frame, sceneScale, receivers, whole);
-  return layer;
+    setWarpedDepthRow(slice, input, frame, sceneScale, receivers, whole);
+  return slice;
 }
 
 // Half a texel on every side keeps points on the very edge of the window inside.
@@ -178,7 +178,7 @@ FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
   const Warp warp = input.options.get(kWarp);
   FittedMap fitted;
   std::vector<glm::dmat3> planes;
-  for (const std::vector<glm::dvec2>& points : layerPoints(input, frame, bounds, cascadeCount)) {
+  for (const std::vector<glm::dvec2>& points : slicePoints(input, frame, bounds, cascadeCount)) {
     WarpedPlane warped;
     if (warp != Warp::None) {
       const std::vector<glm::dvec2> hull = convexHull(points);
@@ -197,18 +197,18 @@ FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
   fitted.positional = perspective;
   fitted.map = {};
   fitted.map.kind = glsl::kMapPlanar;
-  fitted.map.layerCount = cascadeCount;
-  fitted.map.side = fitted.map.rows = input.side;
+  fitted.map.sliceCount = cascadeCount;
+  fitted.map.width = fitted.map.height = input.side;
   fitted.map.sceneScale = bounds.diagonal();
   for (size_t i = 0; i < planes.size(); ++i) {
-    const LayerFit layer = fitDepth(input, frame, bounds, planes[i]);
+    const SliceFit slice = fitDepth(input, frame, bounds, planes[i]);
     if (i == 0) {
-      fitted.zNear = static_cast<float>(layer.zNear);
-      fitted.zFar = static_cast<float>(layer.zFar);
+      fitted.zNear = static_cast<float>(slice.zNear);
+      fitted.zFar = static_cast<float>(slice.zFar);
     }
     // The inverse is that of the rounded matrix, which is what the map is drawn with.
-    const glm::mat4 clip(clipFromLight(layer, perspective));
-    fitted.map.mapLayers[i] = {.clipFromLight = clip, .lightFromClip = glm::mat4(glm::inverse(glm::dmat4(clip)))};
+    const glm::mat4 clip(clipFromLight(slice, perspective));
+    fitted.map.mapSlices[i] = {.clipFromLight = clip, .lightFromClip = glm::mat4(glm::inverse(glm::dmat4(clip)))};
   }
   return fitted;
 }
@@ -217,7 +217,7 @@ class SpotParameterization final : public Parameterization {
  public:
   const char* name() const override { return "spot"; }
   const char* sentence() const override { return "one perspective projection of a cone"; }
-  int layerCount(const MapOptions&) const override { return 1; }
+  int sliceCount(const MapOptions&) const override { return 1; }
 
   LightSupport supportsLight(LightType type) const override {
     return type == LightType::Directional ? LightSupport::No : LightSupport::Yes;
@@ -243,7 +243,7 @@ class DirectionalParameterization final : public Parameterization {
   const char* sentence() const override {
     return "one orthographic projection; a point or spot light is treated as a sun from the same side";
   }
-  int layerCount(const MapOptions& options) const override { return options.get(kCascades); }
+  int sliceCount(const MapOptions& options) const override { return options.get(kCascades); }
 
   LightSupport supportsLight(LightType type) const override {
     return type == LightType::Directional ? LightSupport::Yes : LightSupport::Fallback;

@@ -6,7 +6,7 @@
 // the bounds of what the camera sees of the scored receivers: sample distribution, Lauritzen et al. 2011)
 // gives a window, whose texels snap to a grid that is fixed in the world, or the square of a warp; a
 // directional map may have several (cascades). The near end is tightened to the nearest caster within the
-// layer, the far end to the farthest receiver, or caster where the map is to be whole.
+// slice, the far end to the farthest receiver, or caster where the map is to be whole.
 
 #include "planar/warp.h"
 #include "shadow/parameterization.h"
@@ -25,7 +25,7 @@ inline constexpr int kMostCascades = 4;
 // Of both kinds; kWarp is in warp.h.
 extern const ChoiceOption<WindowFit> kWindowFit;
 extern const ChoiceOption<bool> kSnap;  // texels keep their places in the world while the camera moves
-extern const NumberOption kCascades;    // directional maps: layers, finest first
+extern const NumberOption kCascades;    // directional maps: slices, finest first
 
 const Parameterization& spotParameterization();
 const Parameterization& directionalParameterization();

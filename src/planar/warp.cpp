@@ -53,7 +53,7 @@ std::optional<glm::dmat3> fillSquare(const glm::dmat3& rows, std::span<const glm
       (box.upper - box.lower) * (0.5 / side) + 1e-6 * glm::max(glm::abs(box.lower), glm::abs(box.upper)) + 1e-12;
   box = {.lower = box.lower - pad, .upper = box.upper + pad};
   glm::dmat3 m = clipFromPlane(box) * rows;
-  // A mirrored layer (a window's has a negative determinant, y being down) would show the rasterizer every
+  // A mirrored slice (a window's has a negative determinant, y being down) would show the rasterizer every
   // face from its other side.
   if (glm::determinant(m) > 0.0) m = glm::dmat3({-1, 0, 0}, {0, 1, 0}, {0, 0, 1}) * m;
   m *= (glm::inverse(m) * glm::dvec3(0.0, 0.0, 1.0)).z;  // W is 1 in the square's middle

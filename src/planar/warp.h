@@ -9,7 +9,7 @@
 // come for free.
 //
 // "Light behind the camera" and "light within the view frustum", the papers' special cases, are left as one
-// test, that W be positive on the whole layer and vary less than kMostWarp; a warp that fails is weakened, or
+// test, that W be positive on the whole slice and vary less than kMostWarp; a warp that fails is weakened, or
 // refused with a note.
 
 #include "planar/window.h"

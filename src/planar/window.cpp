@@ -33,17 +33,17 @@ Polygon clip(const Polygon& polygon, double a, const glm::dvec3& b) {
   return out;
 }
 
-// The sides of a layer and its near end as half spaces of the light's frame. A row r of clipFromPlane is
+// The sides of a slice and its near end as half spaces of the light's frame. A row r of clipFromPlane is
 // r.x x + r.y y + r.z (1 or -z) there.
 struct HalfSpace {
   double a = 0.0;
   glm::dvec3 b{0.0};
 };
-using LayerVolume = std::array<HalfSpace, 5>;
+using SliceVolume = std::array<HalfSpace, 5>;
 
-LayerVolume layerVolume(const AxisFrame& frame, const glm::dmat3& clipFromPlane, double least) {
+SliceVolume sliceVolume(const AxisFrame& frame, const glm::dmat3& clipFromPlane, double least) {
   const glm::dmat3 rows = glm::transpose(clipFromPlane);
-  LayerVolume volume;
+  SliceVolume volume;
   for (int axis = 0; axis < 2; ++axis) {
     for (const int sign : {1, -1}) {
       const glm::dvec3 side = rows[2] + static_cast<double>(sign) * rows[axis];
@@ -56,7 +56,7 @@ LayerVolume layerVolume(const AxisFrame& frame, const glm::dmat3& clipFromPlane,
   return volume;
 }
 
-Polygon clipToVolume(const std::array<glm::dvec3, 3>& cornersL, const LayerVolume& volume) {
+Polygon clipToVolume(const std::array<glm::dvec3, 3>& cornersL, const SliceVolume& volume) {
   Polygon polygon;
   for (const glm::dvec3& corner : cornersL) polygon.corners[polygon.count++] = corner;
   for (const HalfSpace& side : volume) {
@@ -69,7 +69,7 @@ Polygon clipToVolume(const std::array<glm::dvec3, 3>& cornersL, const LayerVolum
 // The greatest value that `valueOf` takes at a corner of a triangle's part within the volume, but at least
 // `start`. `mayExceed` passes a whole triangle over.
 template <typename MayExceed, typename ValueOf>
-double greatestOfCasters(const Scene& scene, const AxisFrame& frame, const LayerVolume& volume, double start,
+double greatestOfCasters(const Scene& scene, const AxisFrame& frame, const SliceVolume& volume, double start,
                          const MayExceed& mayExceed, const ValueOf& valueOf) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
@@ -146,7 +146,7 @@ glm::dmat3 clipFromPlane(const Window& window) {
   return glm::dmat3({scale.x, 0.0, 0.0}, {0.0, -scale.y, 0.0}, {-scale.x * center.x, scale.y * center.y, 1.0});
 }
 
-// The ray at (X, Y, 1) of the layer is h = inverse * (X, Y, 1), and its W is 1 / h.z for h.z = 1, so that
+// The ray at (X, Y, 1) of the slice is h = inverse * (X, Y, 1), and its W is 1 / h.z for h.z = 1, so that
 // h.z, which is linear over the square, has its extremes at the corners.
 WRange wRange(const glm::dmat3& clipFromPlane) {
   const glm::dmat3 planeFromClip = glm::inverse(clipFromPlane);
@@ -165,7 +165,7 @@ double nearestCasterDepth(const Scene& scene, const AxisFrame& frame, const glm:
   const auto mayExceed = [](const std::array<glm::dvec3, 3>& cornersL, double best) {
     return std::max({cornersL[0].z, cornersL[1].z, cornersL[2].z}) > best;
   };
-  return -greatestOfCasters(scene, frame, layerVolume(frame, clipFromPlane, least), -farthest, mayExceed,
+  return -greatestOfCasters(scene, frame, sliceVolume(frame, clipFromPlane, least), -farthest, mayExceed,
                             [](const glm::dvec3& posL) { return posL.z; });
 }
 
@@ -174,7 +174,7 @@ double farthestCasterDepth(const Scene& scene, const AxisFrame& frame, const glm
   const auto mayExceed = [](const std::array<glm::dvec3, 3>& cornersL, double best) {
     return -std::min({cornersL[0].z, cornersL[1].z, cornersL[2].z}) > best;
   };
-  return greatestOfCasters(scene, frame, layerVolume(frame, clipFromPlane, nearest), nearest, mayExceed,
+  return greatestOfCasters(scene, frame, sliceVolume(frame, clipFromPlane, nearest), nearest, mayExceed,
                            [](const glm::dvec3& posL) { return -posL.z; });
 }
 
@@ -188,7 +188,7 @@ double casterReach(const Scene& scene, const AxisFrame& frame, const glm::dmat3&
     return sign * (frame.linearDepth(-posL.z) - frame.linearDepth(from)) / (clipFromPlane * h).z;
   };
   return greatestOfCasters(
-      scene, frame, layerVolume(frame, clipFromPlane, least), 0.0, [](const auto&, double) { return true; }, reach);
+      scene, frame, sliceVolume(frame, clipFromPlane, least), 0.0, [](const auto&, double) { return true; }, reach);
 }
 
 }  // namespace gnomon

@@ -3,8 +3,8 @@
 // depth range of its casters and receivers.
 //
 // A ray of the light is a point h of the projective plane: (x, y, 1) of the light's frame without
-// perspective, (x, y, depth) with. A layer is a matrix on that plane, clipFromPlane: (X, Y, W) = M h covers
-// the ray where |X|, |Y| <= W, and the rest of the layer's clipFromLight is its row of depth. A window is
+// perspective, (x, y, depth) with. A slice is a matrix on that plane, clipFromPlane: (X, Y, W) = M h covers
+// the ray where |X|, |Y| <= W, and the rest of the slice's clipFromLight is its row of depth. A window is
 // such a matrix, and so is every warp (planar/warp.h).
 
 #include "scene/scene.h"
@@ -50,25 +50,25 @@ Window snapWindow(const Window& window, int side);
 // Rounded up to a step of the same series.
 double snapLength(double length);
 
-// The window's edges to -1 and 1, the picture of a layer upright (y down in clip space).
+// The window's edges to -1 and 1, the picture of a slice upright (y down in clip space).
 glm::dmat3 clipFromPlane(const Window& window);
 
-// The least and greatest W of all rays that a layer covers, for W scaled so that (X, Y, 1) are clip coordinates. The
-// least is not positive where the layer holds rays that run across the light's plane or behind it.
+// The least and greatest W of all rays that a slice covers, for W scaled so that (X, Y, 1) are clip coordinates. The
+// least is not positive where the slice holds rays that run across the light's plane or behind it.
 struct WRange {
   double least = 0.0;
   double greatest = 0.0;
 };
 WRange wRange(const glm::dmat3& clipFromPlane);
 
-// Depth of the nearest triangle within the layer, and not nearer than `least`; `farthest` where there is none.
+// Depth of the nearest triangle within the slice, and not nearer than `least`; `farthest` where there is none.
 double nearestCasterDepth(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane, double least,
                           double farthest);
 
-// Depth of the farthest triangle within the layer; `nearest` where there is none behind it.
+// Depth of the farthest triangle within the slice; `nearest` where there is none behind it.
 double farthestCasterDepth(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane, double nearest);
 
-// How far the triangles within the layer, not nearer than `least`, reach from the depth `from` as a warped layer stores
+// How far the triangles within the slice, not nearer than `least`, reach from the depth `from` as a warped slice stores
 // it: the greatest |linearDepth - linearDepth(from)| / W of those behind it (Behind) or before it.
 enum class Reach { Before, Behind };
 double casterReach(const Scene& scene, const AxisFrame& frame, const glm::dmat3& clipFromPlane, double least,

@@ -24,7 +24,7 @@ struct Draw {
   uint32_t partCount = 0;    // 0: not cut in parts
 };
 
-// A large draw is cut in parts of as many indices, the last one less, so that a map's layer need not draw
+// A large draw is cut in parts of as many indices, the last one less, so that a map's slice need not draw
 // what it cannot see. A level that is one mesh of 21,236 triangles goes to a cube's six faces as 6.0 times
 // that, in parts of 64 triangles as 2.2 times, triangle by triangle as 1.06 times; the map costs 5% less in
 // parts, and 9% less triangle by triangle before the cost of writing six lists for every map.

@@ -10,7 +10,7 @@ namespace {
 
 // As the compute shaders declare it.
 struct BoundPush {
-  int32_t layer;
+  int32_t slice;
   int32_t facing;
   uint32_t firstTriangle, triangleCount, instance;
 };
@@ -46,7 +46,7 @@ const gpu::ComputeProgram& BoundedDraws::program(const std::string& shader) {
 }
 
 void BoundedDraws::record(gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& mapUniforms,
-                          const std::string& shader, int layer, const Batch& batch) {
+                          const std::string& shader, int slice, const Batch& batch) {
   if (triangles_.handle() == VK_NULL_HANDLE) {
     triangles_ =
         gpu::Buffer(device_, {.name = "bounded triangles",
@@ -61,7 +61,7 @@ void BoundedDraws::record(gpu::Commands& commands, const SceneBuffers& scene, co
   commands.copy(noArguments_, arguments_, sizeof(glsl::BoundedDraw));
   commands.barrier("the count is zero -> triangles are counted");
   for (const Piece& piece : batch) {
-    const BoundPush push{layer, piece.facing, piece.firstTriangle, piece.triangleCount, piece.instance};
+    const BoundPush push{slice, piece.facing, piece.firstTriangle, piece.triangleCount, piece.instance};
     const uint32_t groups = (piece.triangleCount + glsl::kBoundGroupSize - 1) / glsl::kBoundGroupSize;
     std::vector<gpu::Binding> bindings = {
         {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},

@@ -1,5 +1,5 @@
 #pragma once
-// Input of the non-linear rasterizer. A compute shader of the parameterization culls the triangles that a layer does
+// Input of the non-linear rasterizer. A compute shader of the parameterization culls the triangles that a slice does
 // not show and bounds the projections of the others (shared/bounded_triangle.glsl); one indirect draw follows.
 // Triangles go in batches, so that a scene of any size takes the same memory.
 
@@ -28,9 +28,9 @@ class BoundedDraws {
   static constexpr uint32_t kBatchTriangles = 1u << 18;  // 44 MiB with what they may be cut into
   static std::vector<Batch> batches(const std::vector<Piece>& pieces);
 
-  // Makes the list of one batch for a layer; a draw may read it after.
+  // Makes the list of one batch for a slice; a draw may read it after.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& mapUniforms,
-              const std::string& shader, int layer, const Batch& batch);
+              const std::string& shader, int slice, const Batch& batch);
 
   const gpu::Buffer& triangles() const { return triangles_; }
   const gpu::Buffer& arguments() const { return arguments_; }

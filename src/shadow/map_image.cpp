@@ -2,7 +2,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
-#include "shadow/layer_culling.h"
+#include "shadow/slice_culling.h"
 #include "shadow/visibility_pass.h"
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace {
 gpu::ImageDesc slicesDesc(const char* name, VkFormat format, VkImageUsageFlags usage, const glsl::ShadowMap& map) {
   return {.name = name,
           .format = format,
-          .width = static_cast<uint32_t>(map.side),
-          .height = static_cast<uint32_t>(map.rows),
-          .layerCount = static_cast<uint32_t>(map.layerCount),
+          .width = static_cast<uint32_t>(map.width),
+          .height = static_cast<uint32_t>(map.height),
+          .layerCount = static_cast<uint32_t>(map.sliceCount),
           .array = true,
           .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT};
 }
@@ -155,12 +155,12 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
 
 void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Slice& slice,
                                 const Grouping& groupOf) const {
-  const LayerShaders& shaders = slice.map.fitted().shaders;
+  const SliceShaders& shaders = slice.map.fitted().shaders;
   const bool backFaces = slice.pass == ChannelPass::BackFaces;
-  const bool mirrors = (shaders.mirroredLayers >> slice.index & 1u) != 0;
-  LayerPush push{.slice = slice.index};
-  const LayerCulling culling(slice.map.fitted(), slice.index, slice.count);
-  std::vector<std::vector<LayerCulling::Range>> shown;  // of each draw
+  const bool mirrors = (shaders.mirroredSlices >> slice.index & 1u) != 0;
+  SlicePush push{.slice = slice.index};
+  const SliceCulling culling(slice.map.fitted(), slice.index, slice.count);
+  std::vector<std::vector<SliceCulling::Range>> shown;  // of each draw
   for (const Draw& d : scene.draws) shown.push_back(culling.rangesOf(scene, d));
   commands.beginRendering(slice.targets);
   for (const bool masked : {false, true}) {
@@ -184,7 +184,7 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
       commands.bindIndexBuffer(scene.triangles);
       for (; next < shown.size(); ++next) {
         if (!wanted(next)) continue;
-        for (const LayerCulling::Range& range : shown[next]) {
+        for (const SliceCulling::Range& range : shown[next]) {
           push.rangeTriangle = range.firstIndex / 3;
           if (key.needsFragments()) commands.push(drawn, pushed());
           commands.drawIndexed(range.indexCount, 1, range.firstIndex, 0, scene.draws[next].instance);
@@ -197,19 +197,19 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
 
 void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scene, const Slice& slice,
                                const Grouping& groupOf) const {
-  const LayerShaders& shaders = slice.map.fitted().shaders;
+  const SliceShaders& shaders = slice.map.fitted().shaders;
   const bool backFaces = slice.pass == ChannelPass::BackFaces;
-  const LayerPush push{.slice = slice.index};
+  const SlicePush push{.slice = slice.index};
   gpu::RenderTargets targets = slice.targets;
   bool cleared = false;
-  const LayerCulling culling(slice.map.fitted(), slice.index, slice.count);
+  const SliceCulling culling(slice.map.fitted(), slice.index, slice.count);
   for (const bool masked : {false, true}) {
     std::vector<BoundedDraws::Piece> pieces;
     for (const Draw& d : scene.draws) {
       if (d.masked != masked) continue;
       const Group group = groupOf(d);
       const int front = group == Group::Sheets ? 0 : group == Group::Solids ? 1 : -1;
-      for (const LayerCulling::Range& range : culling.rangesOf(scene, d))
+      for (const SliceCulling::Range& range : culling.rangesOf(scene, d))
         pieces.push_back({range.firstIndex / 3, range.indexCount / 3, d.instance, backFaces ? -front : front});
     }
     for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
@@ -232,8 +232,8 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
 }
 
 bool MapRenderer::takesMultiview(const MapImage& map) const {
-  const LayerShaders& shaders = map.fitted().shaders;
-  if (shaders.passes == LayerPasses::Each) return false;
+  const SliceShaders& shaders = map.fitted().shaders;
+  if (shaders.passes == SlicePasses::Each) return false;
   auto found = std::ranges::find(multiviewChecks_, shaders, &decltype(multiviewChecks_)::value_type::first);
   if (found == multiviewChecks_.end()) {
     const auto draw = [this](const SceneBuffers& scene, MapImage& tried, bool multiview) {
@@ -244,12 +244,12 @@ bool MapRenderer::takesMultiview(const MapImage& map) const {
     found = multiviewChecks_.insert(found, {shaders, checkMultiview(device_, map.fitted(), draw)});
   }
   const MultiviewCheck& check = found->second;
-  if (shaders.passes == LayerPasses::Multiview && !check.same)
+  if (shaders.passes == SlicePasses::Multiview && !check.same)
     throw WorldError(
-        fmt::format("--cube-passes multiview: device '{}' draws triangles to the wrong layers in one pass; "
+        fmt::format("--cube-passes multiview: device '{}' draws triangles to the wrong slices in one pass; "
                     "choose six or auto",
                     device_.info().name));
-  return shaders.passes == LayerPasses::Multiview || (check.same && check.faster);
+  return shaders.passes == SlicePasses::Multiview || (check.same && check.faster);
 }
 
 void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
@@ -284,7 +284,7 @@ gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass, Secon
 
 void MapRenderer::recordSlices(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
                                const LightModel& light, CullMode cull, SecondLayer method, bool multiview) const {
-  const int count = multiview ? map.layerCount() : 1;
+  const int count = multiview ? map.sliceCount() : 1;
   const auto recordPass = [&](int first, ChannelPass pass) {
     const bool backFaces = pass == ChannelPass::BackFaces;
     const Grouping groupOf = [&](const Draw& draw) {
@@ -305,7 +305,7 @@ void MapRenderer::recordSlices(gpu::Commands& commands, const SceneBuffers& scen
       recordBounds(commands, scene, slice, groupOf);
   };
   const auto writes = [&](ChannelPass pass) { return writtenBy(pass, map.channels()) != 0; };
-  for (int first = 0; first < map.layerCount(); first += count) {
+  for (int first = 0; first < map.sliceCount(); first += count) {
     if (writes(ChannelPass::Nearest)) recordPass(first, ChannelPass::Nearest);
     if (writes(ChannelPass::Second)) {
       commands.barrier("the first layer's depth is written -> the second layer tests against it");

@@ -37,11 +37,11 @@ class MapImage final : public Occluders {
   std::vector<float> downloadSecondDepth(const gpu::Device& device) const override;
 
   ChannelSet channels() const { return channels_; }
-  // Of one channel, which the map must have; layerCount slices.
+  // Of one channel, which the map must have; sliceCount slices.
   const gpu::Image& image(ChannelSet channel) const;
   // The same, or where the map lacks it another: for shaders that declare more than they read.
   const gpu::Image& imageOrAny(ChannelSet channel) const;
-  int layerCount() const { return fitted().map.layerCount; }
+  int sliceCount() const { return fitted().map.sliceCount; }
 
  private:
   friend class MapRenderer;
@@ -55,8 +55,8 @@ class MapRenderer {
   explicit MapRenderer(const gpu::Device& device);
 
   // `light` decides which solids may be culled: one that holds the light within its bounds shows it back
-  // faces only, and is drawn whole. Throws WorldError where the map asks for LayerPasses::Multiview and the
-  // device draws other layers so. The first map that does not ask for a pass a layer is kept waiting by the
+  // faces only, and is drawn whole. Throws WorldError where the map asks for SlicePasses::Multiview and the
+  // device draws other slices so. The first map that does not ask for a pass a slice is kept waiting by the
   // check of the device.
   void record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light, CullMode cull,
               SecondLayer method = SecondLayer::Blend) const;
@@ -66,7 +66,7 @@ class MapRenderer {
 
  private:
   struct Key {
-    LayerShaders shaders;
+    SliceShaders shaders;
     int pass;  // glsl::kPass*
     bool masked;
     int mapKind;
@@ -108,7 +108,7 @@ class MapRenderer {
   gpu::ComputePrograms computePrograms_;
   mutable std::vector<std::unique_ptr<Entry>> programs_;  // compiled at first use
   mutable BoundedDraws bounded_;
-  mutable std::vector<std::pair<LayerShaders, MultiviewCheck>> multiviewChecks_;
+  mutable std::vector<std::pair<SliceShaders, MultiviewCheck>> multiviewChecks_;
 };
 
 }  // namespace gnomon

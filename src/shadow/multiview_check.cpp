@@ -11,13 +11,13 @@ namespace gnomon {
 namespace {
 
 constexpr int kSmallSide = 64;  // texels
-// As many triangles as a small level has, on layers of a usual size: what is compared is the cost of vertices
+// As many triangles as a small level has, on slices of a usual size: what is compared is the cost of vertices
 // against that of passes, and both grow with the scene.
 constexpr int kManySegments = 256, kManyRings = 129;  // 65,536 triangles
 constexpr int kFewSegments = 16, kFewRings = 9;       // 256 triangles
 constexpr int kRounds = 5;
 
-// A sphere around the light half way between the ends of depth, so that all layers see some of it, and a
+// A sphere around the light half way between the ends of depth, so that all slices see some of it, and a
 // floor of two triangles much larger than what lies below the light.
 SceneBuffers sphereAndFloor(const gpu::Device& device, const FittedMap& fitted, int segments, int rings) {
   Scene scene;
@@ -33,28 +33,28 @@ SceneBuffers sphereAndFloor(const gpu::Device& device, const FittedMap& fitted, 
   return createSceneBuffers(device, scene);
 }
 
-// Where a layer shows nothing there is nothing to compare.
-bool anyLayerIsEmpty(const std::vector<float>& depths, int layerCount) {
-  const auto texels = static_cast<std::ptrdiff_t>(depths.size()) / layerCount;
-  for (auto layer = depths.begin(); layer != depths.end(); layer += texels)
-    if (std::all_of(layer, layer + texels, [](float depth) { return depth == 1.0f; })) return true;
+// Where a slice shows nothing there is nothing to compare.
+bool anySliceIsEmpty(const std::vector<float>& depths, int sliceCount) {
+  const auto texels = static_cast<std::ptrdiff_t>(depths.size()) / sliceCount;
+  for (auto slice = depths.begin(); slice != depths.end(); slice += texels)
+    if (std::all_of(slice, slice + texels, [](float depth) { return depth == 1.0f; })) return true;
   return false;
 }
 
 FittedMap ofSide(FittedMap fitted, int side) {
-  fitted.map.side = fitted.map.rows = side;
+  fitted.map.width = fitted.map.height = side;
   return fitted;
 }
 
 }  // namespace
 
-MultiviewCheck checkMultiview(const gpu::Device& device, const FittedMap& fitted, const DrawLayers& draw) {
+MultiviewCheck checkMultiview(const gpu::Device& device, const FittedMap& fitted, const DrawSlices& draw) {
   const auto drawsAlike = [&](const SceneBuffers& scene, const FittedMap& shape) {
     MapImage each(device, shape), together(device, shape);
     draw(scene, each, false);
     draw(scene, together, true);
     const auto depths = gpu::downloadAs<float>(device, each.depth());
-    return depths == gpu::downloadAs<float>(device, together.depth()) && !anyLayerIsEmpty(depths, each.layerCount());
+    return depths == gpu::downloadAs<float>(device, together.depth()) && !anySliceIsEmpty(depths, each.sliceCount());
   };
   if (!drawsAlike(sphereAndFloor(device, fitted, kFewSegments, kFewRings), ofSide(fitted, kSmallSide))) return {};
   const SceneBuffers many = sphereAndFloor(device, fitted, kManySegments, kManyRings);

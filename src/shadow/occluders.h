@@ -51,9 +51,9 @@ class Occluders {
 
   // What a medium reads along its view rays: a volume's bits, 128 at a time, or depths, one look-up a sample.
   virtual const gpu::Buffer* bits() const { return nullptr; }  // null where there are depths only
-  virtual const gpu::Image& depth() const = 0;  // D32, an array of layers; of a volume: what its bits were made of
+  virtual const gpu::Image& depth() const = 0;  // D32, an array of slices; of a volume: what its bits were made of
 
-  // The stored depths in host memory, as mapDepth() gives them, rows within layers; 1 where nothing is hit.
+  // The stored depths in host memory, as mapDepth() gives them, rows within slices; 1 where nothing is hit.
   virtual std::vector<float> downloadDepth(const gpu::Device& device) const = 0;
   // The nearest behind them; empty where it is not stored.
   virtual std::vector<float> downloadSecondDepth(const gpu::Device&) const { return {}; }

@@ -1,5 +1,5 @@
 #pragma once
-// The interface of a parameterization: it fits itself to a scene and a light, and says how its layers are drawn. Its
+// The interface of a parameterization: it fits itself to a scene and a light, and says how its slices are drawn. Its
 // mathematics (mapProject, mapTexelRay, mapDepth, mapDepthSlope, mapDistance) is in shaders/shared/map.glsl, and a
 // FittedMap carries the numbers those functions read.
 //
@@ -9,8 +9,8 @@
 #include "scene/light_model.h"
 #include "scene/scene_buffers.h"
 #include "shadow/bias.h"
-#include "shadow/layer_shaders.h"
 #include "shadow/map_options.h"
+#include "shadow/slice_shaders.h"
 
 #include "shared/light_frame.glsl"
 #include "shared/map.glsl"
@@ -27,23 +27,23 @@ class Occluders;
 struct FittedMap {
   glsl::LightFrame frame;
   glsl::ShadowMap map;
-  // Clip distances of layer 0 along the light's axis, metres; for reports.
+  // Clip distances of slice 0 along the light's axis, metres; for reports.
   float zNear = 0.0f;
   float zFar = 0.0f;
   bool positional = true;  // the light is a point, and L's origin is there
-  LayerShaders shaders;
+  SliceShaders shaders;
   // What a report should say of the fit: why a warp was weakened or not applied. Empty: nothing.
   std::string note = {};
-  // Layers that show only what lies to one side of a point light, and how far behind it (over the distance) all the
-  // same; one a layer, or empty.
+  // Slices that show only what lies to one side of a point light, and how far behind it (over the distance) all the
+  // same; one a slice, or empty.
   struct HalfSpace {
     float axisZ = 1.0f;  // of L: +1 or -1
     float beyond = 0.0f;
   };
   std::vector<HalfSpace> halfSpaces = {};
-  // Where each layer's square stands in an unfolded picture, in squares; empty: side by side.
+  // Where each slice's square stands in an unfolded picture, in squares; empty: side by side.
   std::vector<glm::ivec2> unfoldedAt = {};
-  // Of a shadow volume's columns: the map in which their occluders are looked up; none: their own layer is drawn.
+  // Of a shadow volume's columns: the map in which their occluders are looked up; none: their own slice is drawn.
   std::shared_ptr<const FittedMap> occluderSource;
 };
 
@@ -69,7 +69,7 @@ class Parameterization {
   virtual ~Parameterization() = default;
   virtual const char* name() const = 0;      // on the command line: --maps spot
   virtual const char* sentence() const = 0;  // for --help
-  virtual int layerCount(const MapOptions& options) const = 0;
+  virtual int sliceCount(const MapOptions& options) const = 0;
   // A spot map takes any positional light; a directional map makes a sun of one where the scene has no
   // directional light.
   virtual LightSupport supportsLight(LightType type) const = 0;

@@ -74,7 +74,7 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
                                                                            {{.id = 0, .value = key.method},
                                                                             {.id = 1, .value = key.diagnose},
                                                                             {.id = 2, .value = key.mapKind},
-                                                                            {.id = 3, .value = key.layerCount},
+                                                                            {.id = 3, .value = key.sliceCount},
                                                                             {.id = 4, .value = key.instanced},
                                                                             {.id = 5, .value = key.channels},
                                                                             {.id = 6, .value = key.filter},
@@ -95,7 +95,7 @@ void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, 
                                         {glsl::kBindVisibility, visibility_},
                                         {glsl::kBindDiagnosis, diagnosis_}};
   for (const Channel& channel : channels()) bindings.emplace_back(channel.binding, map.imageOrAny(channel.bit));
-  commands.dispatch(program({method.id, diagnose ? 1 : 0, map.kind(), map.layerCount(), scene.instanced ? 1 : 0,
+  commands.dispatch(program({method.id, diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0,
                              method.channels, filter.id, filter.tapCount, method.user}),
                     groupCount_, gpu::asPush(filter.params), bindings);
 }

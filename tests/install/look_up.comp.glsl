@@ -17,9 +17,9 @@ void main() {
   if (i >= count) return;
   MapPoint point = mapProject(shadowMap, receivers[i].posL);
   Tap tap;
-  tap.layer = point.layer;
+  tap.slice = point.slice;
   tap.texel = mapTexel(shadowMap, point.uv);
-  tap.ray = mapTexelRay(shadowMap, tap.layer, mapTexelCenter(shadowMap, tap.texel));
+  tap.ray = mapTexelRay(shadowMap, tap.slice, mapTexelCenter(shadowMap, tap.texel));
   tap.z1 = depths[i];
   tap.z2 = 1.0f;
   bool known;

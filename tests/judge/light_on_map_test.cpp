@@ -134,7 +134,7 @@ TEST_F(LightOnMapTest, ThePixelsTexelRayGoesThroughItsTexel) {
       const double farAway = 0.5 * static_cast<double>(map.seen.sceneScale());
       const glm::vec3 posL = glsl::lightFromWorld(fitted.frame, glm::vec3(ray.origin + ray.dir * farAway));
       const glsl::MapPoint point = glsl::mapProject(fitted.map, posL);
-      ASSERT_EQ(point.layer, glsl::unpackLayer(pixel.texel)) << parameterization->name();
+      ASSERT_EQ(point.slice, glsl::unpackSlice(pixel.texel)) << parameterization->name();
       const glm::vec2 center = glsl::mapTexelCenter(fitted.map, glsl::unpackTexel(pixel.texel));
       ASSERT_LT(glm::length((point.uv - center) * glsl::mapTexelCounts(fitted.map)), 0.05f) << parameterization->name();
       ++asked;
@@ -147,7 +147,7 @@ TEST_F(LightOnMapTest, AnotherMapOfItSharesItsTruth) {
   LitMap map(device(), "contact", cubeParameterization(), 64, smallSetup());
   LightOnMap half(map.lit, {.side = 32});
   EXPECT_EQ(&half.groundTruth(), &map.lit.groundTruth());
-  EXPECT_EQ(half.fitted().map.side, 32);
+  EXPECT_EQ(half.fitted().map.width, 32);
   EXPECT_EQ(half.occluders().downloadDepth(device()).size() * 4, map.lit.occluders().downloadDepth(device()).size());
 }
 

@@ -18,7 +18,7 @@ TEST(TexelDensity, OfASunOnAFloorIsTheWindowsTexelsTimesTheSine) {
     const SeenScene seen = test::see(test::longFloor(), test::alongTheFloor(), test::sun(elevation, 60.0), 32);
     const FittedMap fitted = seen.fit(directionalParameterization(), {kSnap(false)}, 512);
     // The window's own size, from the scale of its matrix: 2 / extent.
-    const glm::mat4& m = fitted.map.mapLayers[0].clipFromLight;
+    const glm::mat4& m = fitted.map.mapSlices[0].clipFromLight;
     const double texels = 0.25 * std::abs(static_cast<double>(m[0][0]) * static_cast<double>(m[1][1])) * 512 * 512;
     size_t onTheFloor = 0;
     for (size_t i = 0; i < seen.receivers.states.size(); ++i) {

@@ -38,7 +38,7 @@ TEST(CompareCommand, SaysAllThatIsNot) {
                         kSnap(false),
                         kWindowFit(WindowFit::Tight),
                         kCubeDepth(CubeDepth::Radial),
-                        kCubePasses(LayerPasses::Each),
+                        kCubePasses(SlicePasses::Each),
                         kParaboloidRaster(ParaboloidRaster::Tessellated),
                         kParaboloidAxisW(glm::dvec3(glm::vec3(0.1f, -2.0f, 0.0f))),
                         kVolumeSize({.alpha = 64, .theta = 32, .phi = 256}),

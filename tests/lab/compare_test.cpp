@@ -206,7 +206,7 @@ TEST(ResultsJson, SaysOfAPointLightsMapWhatIsNotDefault) {
     return std::pair(rows[0].at("params"), rows[1].at("params"));
   };
   const auto [cube, paraboloid] =
-      paramsOf({kCubeDepth(CubeDepth::Radial), kCubePasses(LayerPasses::Each),
+      paramsOf({kCubeDepth(CubeDepth::Radial), kCubePasses(SlicePasses::Each),
                 kParaboloidRaster(ParaboloidRaster::Vertex), kParaboloidAxisW(glm::dvec3(0.0, 0.6, 0.8))});
   EXPECT_EQ(cube.at("cube_depth"), "radial");
   EXPECT_EQ(cube.at("cube_passes"), "six");

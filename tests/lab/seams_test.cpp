@@ -1,4 +1,4 @@
-// Where layers meet, a map is no worse than elsewhere: pixels within two texels of a paraboloid's rim or of a
+// Where slices meet, a map is no worse than elsewhere: pixels within two texels of a paraboloid's rim or of a
 // cube's edge against the others, and against themselves with the seam turned away.
 #include "lab/compare/compare.h"
 #include "lab/core/maps.h"
@@ -62,7 +62,7 @@ class Seams {
       const double reach = fitted.map.kind == glsl::kMapParaboloid
                                ? glm::length(fromCenter)
                                : std::max(std::abs(fromCenter.x), std::abs(fromCenter.y));
-      texels[i] = (0.5 - reach) * fitted.map.side;
+      texels[i] = (0.5 - reach) * fitted.map.width;
     }
     return texels;
   }

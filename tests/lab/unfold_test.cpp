@@ -19,14 +19,14 @@ FittedMap cube(int side) {
 
 // Every texel's own direction as a colour.
 Image8 directions(const FittedMap& fitted) {
-  const int side = fitted.map.side;
-  Image8 image(side * fitted.map.layerCount, side, 3);
-  for (int layer = 0; layer < fitted.map.layerCount; ++layer) {
+  const int side = fitted.map.width;
+  Image8 image(side * fitted.map.sliceCount, side, 3);
+  for (int slice = 0; slice < fitted.map.sliceCount; ++slice) {
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
-        const glm::vec3 dir = glsl::mapTexelRay(fitted.map, layer, glsl::mapTexelCenter(fitted.map, {x, y})).dir;
+        const glm::vec3 dir = glsl::mapTexelRay(fitted.map, slice, glsl::mapTexelCenter(fitted.map, {x, y})).dir;
         for (int c = 0; c < 3; ++c)
-          image.at(layer * side + x, y)[c] = static_cast<uint8_t>(std::lround(127.0f + 127.0f * dir[c]));
+          image.at(slice * side + x, y)[c] = static_cast<uint8_t>(std::lround(127.0f + 127.0f * dir[c]));
       }
     }
   }
@@ -77,16 +77,16 @@ TEST(Unfold, TheSmallestAndTheLargestAngleAreThoseOfAllTexels) {
   for (const FittedMap& fitted :
        {cube(3), cube(75),
         makeParaboloidMap(glm::dvec3(0.0), {0.3, -1, 0.2}, ParaboloidRaster::Exact, 0.1, 10.0, 90, 10.0f)}) {
-    const int side = fitted.map.side;
+    const int side = fitted.map.width;
     SolidAngles expected{.smallest = 1e30};
-    for (int layer = 0; layer < fitted.map.layerCount; ++layer)
+    for (int slice = 0; slice < fitted.map.sliceCount; ++slice)
       for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
-          if (!glsl::mapHoldsTexel(fitted.map, layer, {x, y})) continue;
+          if (!glsl::mapHoldsTexel(fitted.map, slice, {x, y})) continue;
           std::array<glm::dvec3, 4> at;
           for (int i = 0; i < 4; ++i) {
             const glm::vec2 uv = glm::vec2(x + (i & 1), y + (i >> 1)) / static_cast<float>(side);
-            at[static_cast<size_t>(i)] = glm::normalize(glm::dvec3(glsl::mapTexelRay(fitted.map, layer, uv).dir));
+            at[static_cast<size_t>(i)] = glm::normalize(glm::dvec3(glsl::mapTexelRay(fitted.map, slice, uv).dir));
           }
           const double angle = triangle(at[0], at[1], at[2]) + triangle(at[1], at[2], at[3]);
           expected.smallest = std::min(expected.smallest, angle);

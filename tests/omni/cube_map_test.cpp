@@ -31,7 +31,7 @@ TEST(CubeMap, TheFacesAreThoseOfVulkan) {
                           vec3(1, -2, 0.5f), vec3(1, 0.5f, 2.0f), vec3(-1, 0.5f, -2.0f)};
   for (int face = 0; face < 6; ++face) {
     const MapPoint point = mapProject(fitted.map, points[face]);
-    EXPECT_EQ(point.layer, face);
+    EXPECT_EQ(point.slice, face);
     EXPECT_EQ(point.uv, vec2(0.75f, 0.375f)) << face;
   }
   EXPECT_FALSE(mapProject(fitted.map, vec3(0.0f)).covered);
@@ -44,10 +44,10 @@ TEST(CubeMap, TheChosenFaceIsWhatTheLayersMatrixGives) {
   for (int i = 0; i < 1 << 16; ++i) {
     const vec3 posL = test::randomDirection(random) * 5.0f;
     const MapPoint point = mapProject(fitted.map, posL);
-    const vec4 clip = transform(fitted.map.mapLayers[point.layer].clipFromLight, vec4(posL, 1.0f));
+    const vec4 clip = transform(fitted.map.mapSlices[point.slice].clipFromLight, vec4(posL, 1.0f));
     ASSERT_EQ(point.uv.x, clip.x / clip.w * 0.5f + 0.5f);
     ASSERT_EQ(point.uv.y, clip.y / clip.w * 0.5f + 0.5f);
-    ASSERT_EQ(mapDepth(fitted.map, point.layer, posL), clip.z / clip.w);
+    ASSERT_EQ(mapDepth(fitted.map, point.slice, posL), clip.z / clip.w);
     ASSERT_TRUE(point.uv.x >= 0.0f && point.uv.x <= 1.0f && point.uv.y >= 0.0f && point.uv.y <= 1.0f);
   }
 }
@@ -58,7 +58,7 @@ TEST(CubeMap, APointComesBackToItsUvAndItsDepthToItsDistance) {
     size_t acrossAnEdge = 0;
     for (const RoundTripQuery& query : queriesAllAround(fitted, size_t{1} << 20)) {
       const RoundTrip answer = roundTrip(fitted.map, query);
-      if (answer.layerAgain == answer.layer) {
+      if (answer.sliceAgain == answer.slice) {
         // uv is 0.5 + half a ratio: two roundings of 2^-24 there and back.
         ASSERT_NEAR(answer.uvAgain.x, answer.uv.x, 2.5e-7f);
         ASSERT_NEAR(answer.uvAgain.y, answer.uv.y, 2.5e-7f);
@@ -81,25 +81,25 @@ TEST(CubeMap, DepthGrowsFromZeroToOneAndItsSlopeIsItsDerivative) {
     const FittedMap fitted = cube(depth);
     for (int i = 0; i < 1000; ++i) {
       const vec3 dir = test::randomDirection(random);
-      const int layer = cubeFace(dir);
-      const Ray ray = mapTexelRay(fitted.map, layer, mapProject(fitted.map, dir).uv);
-      const float length_ = mapDistance(fitted.map, layer, ray, 1.0f);
-      EXPECT_NEAR(mapDepth(fitted.map, layer, ray.origin), 0.0f, 2e-5f);
-      EXPECT_NEAR(mapDepth(fitted.map, layer, ray.origin + ray.dir * length_), 1.0f, 1e-6f);
+      const int slice = cubeFace(dir);
+      const Ray ray = mapTexelRay(fitted.map, slice, mapProject(fitted.map, dir).uv);
+      const float length_ = mapDistance(fitted.map, slice, ray, 1.0f);
+      EXPECT_NEAR(mapDepth(fitted.map, slice, ray.origin), 0.0f, 2e-5f);
+      EXPECT_NEAR(mapDepth(fitted.map, slice, ray.origin + ray.dir * length_), 1.0f, 1e-6f);
       float before = -1.0f;
       for (int k = 0; k <= 100; ++k) {
         const float t = length_ * static_cast<float>(k) / 100.0f;
         const vec3 posL = ray.origin + ray.dir * t;
-        const float here = mapDepth(fitted.map, layer, posL);
+        const float here = mapDepth(fitted.map, slice, posL);
         ASSERT_GT(here, before);
         before = here;
         // Analytic in double: 1 / (f - n), or f n / (f - n) / m^2 times the cosine to the axis.
         const double n = fitted.map.zNear, f = fitted.map.zFar;
-        const vec3 stm = cubeFaceFromLight(layer, posL);
+        const vec3 stm = cubeFaceFromLight(slice, posL);
         const double expected = depth == CubeDepth::Radial
                                     ? 1.0 / (f - n)
-                                    : f * n / (f - n) / (double(stm.z) * stm.z) * cubeFaceFromLight(layer, ray.dir).z;
-        ASSERT_NEAR(mapDepthSlope(fitted.map, layer, posL, ray.dir) / expected, 1.0, 1e-5);
+                                    : f * n / (f - n) / (double(stm.z) * stm.z) * cubeFaceFromLight(slice, ray.dir).z;
+        ASSERT_NEAR(mapDepthSlope(fitted.map, slice, posL, ray.dir) / expected, 1.0, 1e-5);
       }
     }
   }
@@ -110,20 +110,20 @@ TEST(CubeMap, DepthGrowsFromZeroToOneAndItsSlopeIsItsDerivative) {
 TEST(CubeMap, ATapBeyondAnyEdgeLandsOnTheTexelWhoseRayIsNearest) {
   constexpr int kSide = 16;
   const FittedMap fitted = cube(CubeDepth::Radial, kSide);
-  for (int layer = 0; layer < 6; ++layer) {
+  for (int slice = 0; slice < 6; ++slice) {
     for (int i = 0; i < kSide; ++i) {
       for (const ivec2 beyond : {ivec2(-1, i), ivec2(kSide, i), ivec2(i, -1), ivec2(i, kSide)}) {
-        const vec3 wanted = mapTexelRay(fitted.map, layer, mapTexelCenter(fitted.map, beyond)).dir;
-        const MapTexel found = mapTexelAcross(fitted.map, layer, beyond, wanted * 3.0f);
+        const vec3 wanted = mapTexelRay(fitted.map, slice, mapTexelCenter(fitted.map, beyond)).dir;
+        const MapTexel found = mapTexelAcross(fitted.map, slice, beyond, wanted * 3.0f);
         ASSERT_TRUE(found.held);
-        ASSERT_NE(found.layer, layer);
+        ASSERT_NE(found.slice, slice);
         float best = -1.0f;
         for (int other = 0; other < 6; ++other)
           for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x)
               best =
                   std::max(best, dot(wanted, mapTexelRay(fitted.map, other, mapTexelCenter(fitted.map, {x, y})).dir));
-        const vec3 got = mapTexelRay(fitted.map, found.layer, mapTexelCenter(fitted.map, found.texel)).dir;
+        const vec3 got = mapTexelRay(fitted.map, found.slice, mapTexelCenter(fitted.map, found.texel)).dir;
         // Nearest up to ties: a direction near the border of two texels may fall to either by the square's shape.
         ASSERT_LT(std::acos(std::min(1.0f, dot(wanted, got))), std::acos(std::min(1.0f, best)) * 1.2f + 1e-3f);
       }

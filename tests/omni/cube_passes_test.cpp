@@ -7,16 +7,16 @@
 namespace gnomon {
 namespace {
 
-using test::Layers;
+using test::Slices;
 using test::World;
 
 class CubePasses : public gpu::GpuTest {
  protected:
-  Layers draw(const World& world, CubeDepth depth, LayerPasses passes, ChannelSet channels, CullMode cull,
+  Slices draw(const World& world, CubeDepth depth, SlicePasses passes, ChannelSet channels, CullMode cull,
               SecondLayer method = SecondLayer::Blend) {
     const FittedMap fitted =
         test::fitWhole(world, cubeParameterization(), 96, {kCubeDepth(depth), kCubePasses(passes)});
-    return test::drawLayers(device(), world, fitted, cull, channels, method);
+    return test::drawSlices(device(), world, fitted, cull, channels, method);
   }
 };
 
@@ -26,15 +26,15 @@ TEST_F(CubePasses, OnePassGivesTheLayersOfSixOrIsRefusedByName) {
     const World world = test::openWorld(device(), findGeneratedScene(scene)->make());
     for (const CubeDepth depth : {CubeDepth::Hyperbolic, CubeDepth::Radial}) {
       for (const SecondLayer method : {SecondLayer::Blend, SecondLayer::Peel}) {
-        const auto drawBy = [&](LayerPasses passes) {
+        const auto drawBy = [&](SlicePasses passes) {
           return draw(world, depth, passes, glsl::kChannelSecondDepth, CullMode::Solids, method);
         };
-        const Layers six = drawBy(LayerPasses::Each);
-        const Layers chosen = drawBy(LayerPasses::Auto);
+        const Slices six = drawBy(SlicePasses::Each);
+        const Slices chosen = drawBy(SlicePasses::Auto);
         EXPECT_EQ(chosen.z1, six.z1) << scene;
         EXPECT_EQ(chosen.z2, six.z2) << scene;
         try {
-          const Layers one = drawBy(LayerPasses::Multiview);
+          const Slices one = drawBy(SlicePasses::Multiview);
           EXPECT_EQ(one.z1, six.z1) << scene;
           EXPECT_EQ(one.z2, six.z2) << scene;
           ++equal;
@@ -54,24 +54,24 @@ TEST_F(CubePasses, OnePassGivesTheLayersOfSixOrIsRefusedByName) {
 TEST_F(CubePasses, TheCheckSeesWhatDiffersAndWhatIsFaster) {
   const World world = test::openWorld(device(), findGeneratedScene("contact")->make());
   const FittedMap fitted = test::fitWhole(world, cubeParameterization(), 64);
-  const auto fill = [&](MapImage& map, float depth, std::optional<uint32_t> layer) {
+  const auto fill = [&](MapImage& map, float depth, std::optional<uint32_t> slice) {
     gpu::Commands commands(device(), "fill");
     for (uint32_t i = 0; i < 6; ++i) {
-      commands.beginRendering({.depth = &map.depth(), .clearDepth = layer && *layer == i ? 0.25f : depth, .layer = i});
+      commands.beginRendering({.depth = &map.depth(), .clearDepth = slice && *slice == i ? 0.25f : depth, .layer = i});
       commands.endRendering();
     }
     commands.submitAndWait();
   };
-  const auto check = [&](std::optional<uint32_t> wrongLayer, double eachMs, double multiviewMs, float depth) {
+  const auto check = [&](std::optional<uint32_t> wrongSlice, double eachMs, double multiviewMs, float depth) {
     return checkMultiview(device(), fitted, [&](const SceneBuffers&, MapImage& map, bool multiview) {
-      fill(map, depth, multiview ? wrongLayer : std::nullopt);
+      fill(map, depth, multiview ? wrongSlice : std::nullopt);
       return multiview ? multiviewMs : eachMs;
     });
   };
   EXPECT_TRUE(check({}, 2.0, 1.0, 0.5f).same);
   EXPECT_TRUE(check({}, 2.0, 1.0, 0.5f).faster);
   EXPECT_FALSE(check({}, 1.0, 2.0, 0.5f).faster);
-  for (uint32_t layer = 0; layer < 6; ++layer) EXPECT_FALSE(check(layer, 2.0, 1.0, 0.5f).same) << layer;
+  for (uint32_t slice = 0; slice < 6; ++slice) EXPECT_FALSE(check(slice, 2.0, 1.0, 0.5f).same) << slice;
   EXPECT_FALSE(check({}, 2.0, 1.0, 1.0f).same);  // nothing is drawn: nothing was compared
 }
 

@@ -45,12 +45,12 @@ TEST_F(DrawnTriangle, IsTheFirstThatTheTexelsRayHits) {
     const test::World world = test::openWorld(device(), findGeneratedScene(scene)->make());
     for (const auto& [kind, options] : kinds) {
       const FittedMap fitted = test::fitWhole(world, kind, 128, options);
-      const test::Layers layers =
-          test::drawLayers(device(), world, fitted, CullMode::None, glsl::kChannelSecondDepth, SecondLayer::Peel);
+      const test::Slices layers =
+          test::drawSlices(device(), world, fitted, CullMode::None, glsl::kChannelSecondDepth, SecondLayer::Peel);
       size_t drawn = 0, others = 0;
       for (size_t i = 0; i < layers.z2.size(); ++i) {
         if (layers.z2[i] == kNothing) continue;
-        const int side = fitted.map.side, x = static_cast<int>(i) % side, y = static_cast<int>(i) / side % side;
+        const int side = fitted.map.width, x = static_cast<int>(i) % side, y = static_cast<int>(i) / side % side;
         const auto hit = world.tracer->firstHit(
             test::rayThrough(fitted, static_cast<int>(i) / (side * side), glm::dvec2(x, y) + 0.5));
         const auto number = static_cast<uint32_t>(layers.z2[i]);

@@ -10,7 +10,7 @@
 namespace gnomon {
 namespace {
 
-using test::Layers;
+using test::Slices;
 using test::TexelErrors;
 using test::World;
 
@@ -53,7 +53,7 @@ class HardPlaces : public gpu::GpuTest {
  protected:
   // Off by more than a ten-thousandth of the distance.
   TexelErrors errorsOf(const World& world, const FittedMap& fitted) {
-    const Layers layers = test::drawLayers(device(), world, fitted, CullMode::None);
+    const Slices layers = test::drawSlices(device(), world, fitted, CullMode::None);
     return test::compareWithRays(world, fitted, layers.z1,
                                  {.edgeReach = 0.01, .tolerance = [&](int, glm::ivec2, const SurfaceHit& hit) {
                                     return 1e-4 * (hit.distance + fitted.zNear);
@@ -77,7 +77,7 @@ TEST_F(HardPlaces, ExactDoesNotDependOnTessellationAndVertexDoes) {
       for (const int n : {1, 100}) {
         const World world = test::openWorld(device(), floorOf(n), glm::dvec3(0.3, 0.0, 0.1));
         const FittedMap fitted = test::fitWhole(world, paraboloidParameterization(), 256, rasterized(raster, axis));
-        depths[n == 1 ? 0 : 1] = test::drawLayers(device(), world, fitted, CullMode::None).z1;
+        depths[n == 1 ? 0 : 1] = test::drawSlices(device(), world, fitted, CullMode::None).z1;
         if (n == 1) off[raster == ParaboloidRaster::Exact ? 0 : 1] = errorsOf(world, fitted).off;
       }
       for (size_t i = 0; i < depths[0].size(); ++i)
@@ -93,19 +93,19 @@ TEST_F(HardPlaces, ExactDoesNotDependOnTessellationAndVertexDoes) {
 
 // Held texels whose depth is not between those of the rays within one texel of them, beyond the rim too.
 size_t texelsAstray(const World& world, const FittedMap& fitted, const std::vector<float>& depths) {
-  const int side = fitted.map.side, wide = side + 2;
+  const int side = fitted.map.width, wide = side + 2;
   const float range = fitted.zFar - fitted.zNear;
   size_t astray = 0;
-  for (int layer = 0; layer < fitted.map.layerCount; ++layer) {
+  for (int slice = 0; slice < fitted.map.sliceCount; ++slice) {
     std::vector<float> exact(static_cast<size_t>(wide) * wide);  // one more texel on each side
     for (int y = 0; y < wide; ++y)
       for (int x = 0; x < wide; ++x) {
-        const auto hit = world.tracer->firstHit(test::rayThrough(fitted, layer, glm::dvec2(x, y) - 0.5));
+        const auto hit = world.tracer->firstHit(test::rayThrough(fitted, slice, glm::dvec2(x, y) - 0.5));
         exact[static_cast<size_t>(y) * wide + x] = hit ? static_cast<float>(hit->distance) / range : 1.0f;
       }
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
-        if (!glsl::mapHoldsTexel(fitted.map, layer, {x, y})) continue;
+        if (!glsl::mapHoldsTexel(fitted.map, slice, {x, y})) continue;
         float low = INFINITY, high = -INFINITY;
         for (int v = y; v <= y + 2; ++v)
           for (int u = x; u <= x + 2; ++u) {
@@ -116,7 +116,7 @@ size_t texelsAstray(const World& world, const FittedMap& fitted, const std::vect
         // 2 / side radians.
         const float width = (low * range + fitted.zNear) * 2.0f / static_cast<float>(side) / range;
         const float slack = 0.5f * (high - low) + width + 3e-6f;
-        const float depth = depths[(static_cast<size_t>(layer) * side + y) * side + x];
+        const float depth = depths[(static_cast<size_t>(slice) * side + y) * side + x];
         astray += depth < low - slack || depth > high + slack ? 1 : 0;
       }
     }
@@ -130,7 +130,7 @@ TEST_F(HardPlaces, TessellatedIsRightToATexelAndVertexIsNot) {
     for (const glm::dvec3 axis : {glm::dvec3(0, -1, 0), glm::dvec3(1, -0.2, 0.1)}) {
       const auto astray = [&](ParaboloidRaster raster, int side) {
         const FittedMap fitted = test::fitWhole(world, paraboloidParameterization(), side, rasterized(raster, axis));
-        return texelsAstray(world, fitted, test::drawLayers(device(), world, fitted, CullMode::None).z1);
+        return texelsAstray(world, fitted, test::drawSlices(device(), world, fitted, CullMode::None).z1);
       };
       EXPECT_EQ(astray(ParaboloidRaster::Exact, 256), 0u) << height;
       EXPECT_EQ(astray(ParaboloidRaster::Tessellated, 256), 0u) << height;
@@ -154,15 +154,15 @@ TEST_F(HardPlaces, InsideAClosedBoxEveryTexelIsCovered) {
 TEST_F(HardPlaces, OnASurfaceTheRestIsRight) {
   const World world = test::openWorld(device(), box({-1, -2, -3}, {4, 3, 2}), glm::dvec3(0.5, -2.0, -0.4));
   for (const FittedMap& fitted : mapsOf(world)) {
-    const Layers layers = test::drawLayers(device(), world, fitted, CullMode::None);
+    const Slices layers = test::drawSlices(device(), world, fitted, CullMode::None);
     size_t empty = 0;
-    for (int layer = 0; layer < fitted.map.layerCount; ++layer) {
-      for (int y = 0; y < fitted.map.side; ++y) {
-        for (int x = 0; x < fitted.map.side; ++x) {
-          if (!glsl::mapHoldsTexel(fitted.map, layer, {x, y})) continue;
-          const RayD ray = test::rayThrough(fitted, layer, glm::dvec2(x, y) + 0.5);
+    for (int slice = 0; slice < fitted.map.sliceCount; ++slice) {
+      for (int y = 0; y < fitted.map.width; ++y) {
+        for (int x = 0; x < fitted.map.width; ++x) {
+          if (!glsl::mapHoldsTexel(fitted.map, slice, {x, y})) continue;
+          const RayD ray = test::rayThrough(fitted, slice, glm::dvec2(x, y) + 0.5);
           if (std::abs(ray.dir.y) < 0.02) continue;  // nearly in the plane
-          const float stored = layers.z1[(static_cast<size_t>(layer) * fitted.map.side + y) * fitted.map.side + x];
+          const float stored = layers.z1[(static_cast<size_t>(slice) * fitted.map.width + y) * fitted.map.width + x];
           if (ray.dir.y < 0.0) {
             ++empty;
             ASSERT_EQ(stored, 1.0f) << fitted.map.kind;
@@ -170,8 +170,8 @@ TEST_F(HardPlaces, OnASurfaceTheRestIsRight) {
           }
           const auto hit = world.tracer->firstHit({ray.origin + ray.dir * 0.01, ray.dir});
           ASSERT_TRUE(hit);
-          const glsl::Ray rayL = glsl::mapTexelRay(fitted.map, layer, glsl::mapTexelCenter(fitted.map, {x, y}));
-          ASSERT_NEAR(glsl::mapDistance(fitted.map, layer, rayL, stored), hit->distance + 0.01,
+          const glsl::Ray rayL = glsl::mapTexelRay(fitted.map, slice, glsl::mapTexelCenter(fitted.map, {x, y}));
+          ASSERT_NEAR(glsl::mapDistance(fitted.map, slice, rayL, stored), hit->distance + 0.01,
                       // The near end stands at 1e-5 of the diagonal: hyperbolic depth leaves 2^-24 d^2 / near.
                       fitted.map.kind == glsl::kMapCube ? 6e-8 * 60.0 / fitted.map.zNear : 2e-3)
               << fitted.map.kind;
@@ -202,8 +202,8 @@ TEST_F(HardPlaces, AFarEndTooNearLosesOnlyWhatLiesBehindIt) {
       {makeParaboloidMap(world.light.positionW, {0, -1, 0}, ParaboloidRaster::Exact, near, far, 111, scale),
        makeParaboloidMap(world.light.positionW, {0, -1, 0}, ParaboloidRaster::Exact, near, 40.0, 111, scale)}};
   for (const auto& [cut, whole] : pairs) {
-    const Layers a = test::drawLayers(device(), world, cut, CullMode::None);
-    const Layers b = test::drawLayers(device(), world, whole, CullMode::None);
+    const Slices a = test::drawSlices(device(), world, cut, CullMode::None);
+    const Slices b = test::drawSlices(device(), world, whole, CullMode::None);
     size_t behind = 0, before = 0;
     for (size_t i = 0; i < a.z1.size(); ++i) {
       const double metres = near + b.z1[i] * (40.0 - near);

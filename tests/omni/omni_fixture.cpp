@@ -9,11 +9,11 @@ namespace gnomon::test {
 
 namespace {
 
-bool isNearPrimitiveEdge(const Tracer& tracer, const FittedMap& fitted, int layer, glm::ivec2 texel, double reach) {
+bool isNearPrimitiveEdge(const Tracer& tracer, const FittedMap& fitted, int slice, glm::ivec2 texel, double reach) {
   std::optional<Primitive> seen;
   for (int i = 0; i < 4; ++i) {
     const glm::dvec2 place = glm::dvec2(texel) + 0.5 + reach * glm::dvec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1);
-    const auto hit = tracer.firstHit(rayThrough(fitted, layer, place));
+    const auto hit = tracer.firstHit(rayThrough(fitted, slice, place));
     if (!hit || (i > 0 && !(*seen == hit->primitive))) return true;
     seen = hit->primitive;
   }
@@ -45,7 +45,7 @@ FittedMap fitWhole(const World& world, const Parameterization& map, int side, co
                   .options = options});
 }
 
-Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
+Slices drawSlices(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
                   ChannelSet channels, SecondLayer method) {
   MapImage image(device, fitted, channels);
   gpu::Commands commands(device, "shadow map");
@@ -55,7 +55,7 @@ Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap
     return (image.channels() & channel) != 0 ? gpu::downloadAs<float>(device, image.image(channel))
                                              : std::vector<float>();
   };
-  const Layers layers{.z1 = depthsOf(glsl::kChannelDepth),
+  const Slices layers{.z1 = depthsOf(glsl::kChannelDepth),
                       .z2 = depthsOf(glsl::kChannelSecondDepth),
                       .zBack = depthsOf(glsl::kChannelBackDepth)};
   return layers;
@@ -64,27 +64,27 @@ Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap
 TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const std::vector<float>& depths,
                             const TexelCheck& check) {
   TexelErrors errors;
-  const int side = fitted.map.side;
-  for (int layer = 0; layer < fitted.map.layerCount; ++layer) {
+  const int side = fitted.map.width;
+  for (int slice = 0; slice < fitted.map.sliceCount; ++slice) {
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
         const glm::ivec2 texel(x, y);
-        const float stored = depths[(static_cast<size_t>(layer) * side + y) * side + x];
-        if (!glsl::mapHoldsTexel(fitted.map, layer, texel)) {
+        const float stored = depths[(static_cast<size_t>(slice) * side + y) * side + x];
+        if (!glsl::mapHoldsTexel(fitted.map, slice, texel)) {
           if (stored != 1.0f) ++errors.off;
           continue;
         }
         ++errors.held;
-        const auto hit = world.tracer->firstHit(rayThrough(fitted, layer, glm::dvec2(texel) + 0.5));
+        const auto hit = world.tracer->firstHit(rayThrough(fitted, slice, glm::dvec2(texel) + 0.5));
         if (hit) ++errors.covered;
-        const glsl::Ray ray = glsl::mapTexelRay(fitted.map, layer, glsl::mapTexelCenter(fitted.map, texel));
+        const glsl::Ray ray = glsl::mapTexelRay(fitted.map, slice, glsl::mapTexelCenter(fitted.map, texel));
         double error = INFINITY;
         if (!hit && stored == 1.0f) continue;
         if (hit && stored < 1.0f) {
-          error = std::abs(static_cast<double>(glsl::mapDistance(fitted.map, layer, ray, stored)) - hit->distance);
-          if (error <= check.tolerance(layer, texel, *hit)) continue;
+          error = std::abs(static_cast<double>(glsl::mapDistance(fitted.map, slice, ray, stored)) - hit->distance);
+          if (error <= check.tolerance(slice, texel, *hit)) continue;
         }
-        if (isNearPrimitiveEdge(*world.tracer, fitted, layer, texel, check.edgeReach)) {
+        if (isNearPrimitiveEdge(*world.tracer, fitted, slice, texel, check.edgeReach)) {
           ++errors.atEdges;
         } else {
           ++errors.off;
@@ -111,8 +111,8 @@ int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers, const std::vector
   for (size_t i = 0; i < queries.size(); ++i) {
     const glsl::RoundTrip expected = glsl::roundTrip(map, queries[i]);
     const glsl::RoundTrip& answer = answers[i];
-    if (answer.layer != expected.layer || answer.covered != expected.covered ||
-        answer.layerAgain != expected.layerAgain)
+    if (answer.slice != expected.slice || answer.covered != expected.covered ||
+        answer.sliceAgain != expected.sliceAgain)
       return INT64_MAX;
     for (int c = 0; c < 2; ++c) compare(answer.uv[c], expected.uv[c]);
     for (int c = 0; c < 2; ++c) compare(answer.uvAgain[c], expected.uvAgain[c]);

@@ -31,16 +31,16 @@ World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3
 // A map of the whole scene: no receivers, so that the far end lies behind every caster.
 FittedMap fitWhole(const World& world, const Parameterization& map, int side, const MapOptions& options = {});
 
-struct Layers {
+struct Slices {
   std::vector<float> z1, z2, zBack;  // slice after slice; empty where the map has no such channel
 };
-Layers drawLayers(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
+Slices drawSlices(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
                   ChannelSet channels = glsl::kChannelDepth, SecondLayer method = SecondLayer::Blend);
 
 // Every held texel against the first hit of its own ray. A texel near an edge of what is seen may hold the
 // other side of it.
 struct TexelErrors {
-  size_t held = 0;     // texels that a layer draws
+  size_t held = 0;     // texels that a slice draws
   size_t covered = 0;  // those whose ray hits something
   size_t atEdges = 0;  // off, within `edgeReach` texels of the edge of a triangle
   size_t off = 0;      // off elsewhere
@@ -49,7 +49,7 @@ struct TexelErrors {
 struct TexelCheck {
   double edgeReach = 0.02;  // texels
   // How far a stored distance may be from the hit's, metres.
-  std::function<double(int layer, glm::ivec2 texel, const SurfaceHit& hit)> tolerance;
+  std::function<double(int slice, glm::ivec2 texel, const SurfaceHit& hit)> tolerance;
 };
 TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const std::vector<float>& depths,
                             const TexelCheck& check);
@@ -57,7 +57,7 @@ TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const s
 // Unit directions, even over the sphere.
 glm::vec3 randomDirection(std::mt19937& random);
 
-// Over all members of all answers, against the CPU's. Layers and `covered` that differ are as bad as can be.
+// Over all members of all answers, against the CPU's. Slices and `covered` that differ are as bad as can be.
 int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers, const std::vector<glsl::RoundTripQuery>& queries,
                   const glsl::ShadowMap& map);
 

@@ -13,7 +13,7 @@ struct RoundTripQuery {
 };
 
 struct RoundTrip {
-  int layer;
+  int slice;
   int covered;
   vec2 uv;
   vec3 origin;
@@ -22,24 +22,24 @@ struct RoundTrip {
   float slope;
   float distance;
   // Where the ray through uv, at the point's distance, comes out again.
-  int layerAgain;
+  int sliceAgain;
   vec2 uvAgain;
 };
 
 GNOMON_FN RoundTrip roundTrip(ShadowMap map, RoundTripQuery query) {
   MapPoint point = mapProject(map, query.posL);
-  Ray ray = mapTexelRay(map, point.layer, point.uv);
+  Ray ray = mapTexelRay(map, point.slice, point.uv);
   RoundTrip answer;
-  answer.layer = point.layer;
+  answer.slice = point.slice;
   answer.covered = point.covered ? 1 : 0;
   answer.uv = point.uv;
   answer.origin = ray.origin;
   answer.dir = ray.dir;
-  answer.depth = mapDepth(map, point.layer, query.posL);
-  answer.slope = mapDepthSlope(map, point.layer, query.posL, ray.dir);
-  answer.distance = mapDistance(map, point.layer, ray, query.depth);
+  answer.depth = mapDepth(map, point.slice, query.posL);
+  answer.slope = mapDepthSlope(map, point.slice, query.posL, ray.dir);
+  answer.distance = mapDistance(map, point.slice, ray, query.depth);
   MapPoint again = mapProject(map, ray.origin + ray.dir * length(query.posL));
-  answer.layerAgain = again.layer;
+  answer.sliceAgain = again.slice;
   answer.uvAgain = again.uv;
   return answer;
 }

@@ -39,8 +39,8 @@ TEST(ParaboloidMap, APointComesBackToItsUvAndItsDepthToItsDistance) {
   for (const RoundTripQuery& query : queriesAllAround(fitted, size_t{1} << 20)) {
     const RoundTrip answer = roundTrip(fitted.map, query);
     ASSERT_EQ(answer.covered, 1);
-    ASSERT_TRUE(mapHoldsTexel(fitted.map, answer.layer, mapTexel(fitted.map, answer.uv)));
-    if (answer.layerAgain == answer.layer) {
+    ASSERT_TRUE(mapHoldsTexel(fitted.map, answer.slice, mapTexel(fitted.map, answer.uv)));
+    if (answer.sliceAgain == answer.slice) {
       ASSERT_NEAR(answer.uvAgain.x, answer.uv.x, 3.6e-7f);  // six roundings of 2^-24
       ASSERT_NEAR(answer.uvAgain.y, answer.uv.y, 3.6e-7f);
     } else {
@@ -92,20 +92,20 @@ TEST(ParaboloidMap, ATapBeyondTheRimLandsOnTheTexelWhoseRayIsNearest) {
   constexpr int kSide = 32;
   const FittedMap fitted = paraboloid(kSide);
   size_t taps = 0;
-  for (int layer = 0; layer < 2; ++layer) {
+  for (int slice = 0; slice < 2; ++slice) {
     for (int y = -1; y <= kSide; ++y) {
       for (int x = -1; x <= kSide; ++x) {
         const bool besideHeld =
-            mapHoldsTexel(fitted.map, layer, {x - 1, y}) || mapHoldsTexel(fitted.map, layer, {x + 1, y}) ||
-            mapHoldsTexel(fitted.map, layer, {x, y - 1}) || mapHoldsTexel(fitted.map, layer, {x, y + 1});
-        if (mapHoldsTexel(fitted.map, layer, {x, y}) || !besideHeld) continue;
+            mapHoldsTexel(fitted.map, slice, {x - 1, y}) || mapHoldsTexel(fitted.map, slice, {x + 1, y}) ||
+            mapHoldsTexel(fitted.map, slice, {x, y - 1}) || mapHoldsTexel(fitted.map, slice, {x, y + 1});
+        if (mapHoldsTexel(fitted.map, slice, {x, y}) || !besideHeld) continue;
         ++taps;
-        const vec3 wanted = mapTexelRay(fitted.map, layer, mapTexelCenter(fitted.map, {x, y})).dir;
-        const MapTexel found = mapTexelAcross(fitted.map, layer, {x, y}, wanted * 3.0f);
+        const vec3 wanted = mapTexelRay(fitted.map, slice, mapTexelCenter(fitted.map, {x, y})).dir;
+        const MapTexel found = mapTexelAcross(fitted.map, slice, {x, y}, wanted * 3.0f);
         ASSERT_TRUE(found.held);
-        EXPECT_EQ(found.layer, 1 - layer);
-        ASSERT_TRUE(mapHoldsTexel(fitted.map, found.layer, found.texel));
-        const vec3 got = mapTexelRay(fitted.map, found.layer, mapTexelCenter(fitted.map, found.texel)).dir;
+        EXPECT_EQ(found.slice, 1 - slice);
+        ASSERT_TRUE(mapHoldsTexel(fitted.map, found.slice, found.texel));
+        const vec3 got = mapTexelRay(fitted.map, found.slice, mapTexelCenter(fitted.map, found.texel)).dir;
         // At the rim a texel is 2/side radians across, half a diagonal 0.71 of that.
         EXPECT_LT(length(wanted - got), 0.75f * 2.0f / kSide);
       }
@@ -128,16 +128,16 @@ bool isInsideQuad(const QuadBound& bound, dvec2 p) {
 }
 
 // The bounds that bound_in_paraboloid.comp.glsl finds for a triangle.
-std::vector<QuadBound> boundsOf(int side, int layer, const LightTriangle& triangle) {
+std::vector<QuadBound> boundsOf(int side, int slice, const LightTriangle& triangle) {
   std::vector<QuadBound> bounds;
   const Piece whole{.a = triangle.a, .b = triangle.b, .c = triangle.c, .uvA = {}, .uvB = {}, .uvC = {}};
   std::vector<Piece> waiting = {whole};
   while (!waiting.empty()) {
     const Piece piece = waiting.back();
     waiting.pop_back();
-    const QuadBound bound = paraboloidBound(side, layer, lightTriangle(piece.a, piece.b, piece.c));
-    if (waiting.size() < size_t{kMostWaiting} && isWorthHalving(side, layer, piece, bound)) {
-      const PieceHalves halves = halvesOf(side, layer, piece, false);
+    const QuadBound bound = paraboloidBound(side, slice, lightTriangle(piece.a, piece.b, piece.c));
+    if (waiting.size() < size_t{kMostWaiting} && isWorthHalving(side, slice, piece, bound)) {
+      const PieceHalves halves = halvesOf(side, slice, piece, false);
       waiting.insert(waiting.end(), {halves.second, halves.first});
     } else {
       bounds.push_back(bound);
@@ -195,19 +195,19 @@ TEST(ParaboloidBound, EnclosesEveryTexelWhoseRayMeetsTheTriangle) {
     const bool ordinary = i % 8 == 0 || i % 8 == 7;
     const LightTriangle triangle = lightTriangle(a, b, c);
     const vec3 normal = inversePlaneNormal(triangle);
-    for (int layer = 0; layer < 2; ++layer) {
-      const std::vector<QuadBound> bounds = boundsOf(kSide, layer, triangle);
+    for (int slice = 0; slice < 2; ++slice) {
+      const std::vector<QuadBound> bounds = boundsOf(kSide, slice, triangle);
       cut += bounds.size() > 1 ? 1 : 0;
       size_t here = 0;
       for (int y = static_cast<int>(i) & 1; y < kSide; y += 2) {
         for (int x = static_cast<int>(i) >> 1 & 1; x < kSide; x += 2) {
-          if (!mapHoldsTexel(fitted.map, layer, {x, y})) continue;
+          if (!mapHoldsTexel(fitted.map, slice, {x, y})) continue;
           const vec2 uv = mapTexelCenter(fitted.map, {x, y});
           const auto inside = std::ranges::count_if(bounds, [&](const QuadBound& bound) {
             return isInsideQuad(bound, {2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y});
           });
           enclosed += ordinary ? static_cast<size_t>(inside) : 0;
-          const vec3 dir = mapTexelRay(fitted.map, layer, uv).dir;
+          const vec3 dir = mapTexelRay(fitted.map, slice, uv).dir;
           const vec3 distances = sideDistances(triangle, dir);
           if (!isWithin(distances) || !(1.0f / dot(normal, dir) >= fitted.map.zNear)) continue;
           ++here;

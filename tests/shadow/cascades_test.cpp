@@ -1,4 +1,4 @@
-// Splits and layers, and what every planar fit owes to every receiver.
+// Splits and slices, and what every planar fit owes to every receiver.
 #include "planar/cascades.h"
 #include "base/error.h"
 #include "judge/texel_density.h"
@@ -26,24 +26,24 @@ TEST(CascadeSplits, AreTheMeanOfLogarithmicAndUniform) {
 TEST(Cascades, TheFirstThatCoversIsTakenAndTheyGrowCoarser) {
   const SeenScene seen = test::see(test::longFloor(), test::alongTheFloor(), test::sun(50.0, 60.0), 96);
   const FittedMap fitted = seen.fit(directionalParameterization(), {kCascades(3)}, 512);
-  ASSERT_EQ(fitted.map.layerCount, 3);
+  ASSERT_EQ(fitted.map.sliceCount, 3);
   size_t counts[3] = {};
   for (const glm::dvec3& receiver : seen.scored) {
     const glm::vec3 posL = glsl::lightFromWorld(fitted.frame, glm::vec3(receiver));
     const glsl::MapPoint point = glsl::mapProject(fitted.map, posL);
     ASSERT_TRUE(point.covered);
-    ++counts[point.layer];
-    for (int layer = 0; layer < point.layer; ++layer) {  // none before it would have had the point
+    ++counts[point.slice];
+    for (int slice = 0; slice < point.slice; ++slice) {  // none before it would have had the point
       glsl::ShadowMap one = fitted.map;
-      one.layerCount = 1;
-      one.mapLayers[0] = fitted.map.mapLayers[layer];
+      one.sliceCount = 1;
+      one.mapSlices[0] = fitted.map.mapSlices[slice];
       EXPECT_FALSE(glsl::mapProject(one, posL).covered);
     }
-    const float depth = glsl::mapDepth(fitted.map, point.layer, posL);
+    const float depth = glsl::mapDepth(fitted.map, point.slice, posL);
     EXPECT_GT(depth, 0.0f);
     EXPECT_LT(depth, 1.0f);
   }
-  // What lies before a split is in the layers that were fitted to it.
+  // What lies before a split is in the slices that were fitted to it.
   double nearest = 1e30, farthest = 0.0;
   for (const glm::dvec3& receiver : seen.scored) {
     nearest = std::min(nearest, viewDepth(seen.view, receiver));
@@ -51,27 +51,27 @@ TEST(Cascades, TheFirstThatCoversIsTakenAndTheyGrowCoarser) {
   }
   const std::vector<double> splits = cascadeSplits(nearest, farthest, 3);
   for (const glm::dvec3& receiver : seen.scored) {
-    const int layer = glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(receiver))).layer;
+    const int slice = glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(receiver))).slice;
     for (int later = 1; later < 3; ++later) {
       if (viewDepth(seen.view, receiver) < splits[static_cast<size_t>(later)]) {
-        ASSERT_LT(layer, later);
+        ASSERT_LT(slice, later);
       }
     }
   }
   for (const size_t count : counts) EXPECT_GT(count, seen.scored.size() / 100);
   // Texels of a floor: the windows alone decide.
   double before = 1e30;
-  for (int layer = 0; layer < 3; ++layer) {
+  for (int slice = 0; slice < 3; ++slice) {
     glsl::ShadowMap one = fitted.map;
-    one.layerCount = 1;
-    one.mapLayers[0] = fitted.map.mapLayers[layer];
+    one.sliceCount = 1;
+    one.mapSlices[0] = fitted.map.mapSlices[slice];
     FittedMap single = fitted;
     single.map = one;
     const glsl::Ray ray = glsl::mapTexelRay(one, 0, {0.5f, 0.5f});
     const glm::dvec3 onRay(glsl::worldFromLight(fitted.frame, ray.origin + ray.dir));
     const auto density = texelDensity(single, onRay, -seen.light.directionW);
     ASSERT_TRUE(density.has_value());
-    EXPECT_LT(*density, before / 2.0) << layer;
+    EXPECT_LT(*density, before / 2.0) << slice;
     before = *density;
   }
 }
@@ -84,12 +84,12 @@ TEST(PlanarFit, EveryReceiverOfEverySceneIsCoveredWithinTheDepthRange) {
       ASSERT_GT(seen.scored.size(), 20u) << scene << " " << map->name();
       for (const MapOptions& options : test::allPlanarOptions()) {
         const FittedMap fitted = seen.fit(*map, options);
-        EXPECT_EQ(fitted.map.layerCount, map->layerCount(options));
+        EXPECT_EQ(fitted.map.sliceCount, map->sliceCount(options));
         size_t wrong = 0;
         for (const glm::dvec3& receiver : seen.scored) {
           const glm::vec3 posL = glsl::lightFromWorld(fitted.frame, glm::vec3(receiver));
           const glsl::MapPoint point = glsl::mapProject(fitted.map, posL);
-          const float depth = glsl::mapDepth(fitted.map, point.layer, posL);
+          const float depth = glsl::mapDepth(fitted.map, point.slice, posL);
           wrong += point.covered && depth > 0.0f && depth < 1.0f ? 0 : 1;
         }
         EXPECT_EQ(wrong, 0u) << scene << " " << map->name() << ": " << test::describe(options);
@@ -114,8 +114,8 @@ TEST(PlanarFit, NoCasterOfAReceiverIsLostBeforeTheNearEnd) {
           if (!hit) continue;
           ++met;
           const glm::vec3 casterL = glsl::lightFromWorld(fitted.frame, glm::vec3(origin + dir * hit->distance));
-          const int layer = glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(receiver))).layer;
-          lost += glsl::mapDepth(fitted.map, layer, casterL) < 0.0f ? 1 : 0;
+          const int slice = glsl::mapProject(fitted.map, glsl::lightFromWorld(fitted.frame, glm::vec3(receiver))).slice;
+          lost += glsl::mapDepth(fitted.map, slice, casterL) < 0.0f ? 1 : 0;
         }
         EXPECT_EQ(lost, 0u) << scene << " " << map->name() << ": " << test::describe(options);
         EXPECT_GT(met, seen.scored.size() / 2);
@@ -133,7 +133,7 @@ TEST(PlanarFit, TightHoldsWhateverTheCameraCouldSeeAndNoneWhateverTheLightCould)
     for (const Parameterization* map : planarParameterizations()) {
       const SeenScene seen = test::see(scene, *map, 32);
       const Bounds bounds = computeBounds(*seen.scene);
-      for (const int cascades : {1, map->layerCount({kCascades(3)})}) {
+      for (const int cascades : {1, map->sliceCount({kCascades(3)})}) {
         const FittedMap tight = seen.fit(*map, {kWindowFit(WindowFit::Tight), kSnap(false), kCascades(cascades)});
         const FittedMap whole = seen.fit(*map, {kWindowFit(WindowFit::None), kSnap(false), kCascades(cascades)});
         size_t inView = 0, inCone = 0;

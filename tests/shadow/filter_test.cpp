@@ -194,11 +194,11 @@ TEST_F(FilterOnTheGpu, TheVisibilityPassIsTheSumOfItsTaps) {
         const uint seed = pixelSeed({static_cast<int>(pixel) % r.view.width, static_cast<int>(pixel) / r.view.width});
         float lit = 0.0f, weights = 0.0f;
         for (int i = 0; i < filter.tapCount; ++i) {
-          const FilterTap wanted = knownTap(filter, point.uv * static_cast<float>(map.side), seed, i);
-          const MapTexel found = mapTexelAcross(map, point.layer, wanted.texel, receiver.posL);
+          const FilterTap wanted = knownTap(filter, point.uv * static_cast<float>(map.width), seed, i);
+          const MapTexel found = mapTexelAcross(map, point.slice, wanted.texel, receiver.posL);
           if (!found.held) continue;
-          const auto at = static_cast<size_t>(found.texel.y * map.side + found.texel.x);
-          Tap tap = emptyTap(found.layer, found.texel, mapTexelRay(map, found.layer, mapTexelCenter(map, found.texel)));
+          const auto at = static_cast<size_t>(found.texel.y * map.width + found.texel.x);
+          Tap tap = emptyTap(found.slice, found.texel, mapTexelRay(map, found.slice, mapTexelCenter(map, found.texel)));
           tap.z1 = depth[at];
           if (two) tap.z2 = second[at];
           bool known = false;

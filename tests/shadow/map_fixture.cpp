@@ -54,20 +54,20 @@ std::vector<MapSample> samplesOf(const FittedMap& fitted, size_t count, uint32_t
   std::vector<MapSample> samples(count);
   for (size_t i = 0; i < count; ++i) {
     MapSample& sample = samples[i];
-    sample.layer = static_cast<int>(i % static_cast<size_t>(fitted.map.layerCount));
+    sample.slice = static_cast<int>(i % static_cast<size_t>(fitted.map.sliceCount));
     sample.uv = {unit(random), unit(random)};
-    const glsl::Ray ray = glsl::mapTexelRay(fitted.map, sample.layer, sample.uv);
+    const glsl::Ray ray = glsl::mapTexelRay(fitted.map, sample.slice, sample.uv);
     // Even in distance, so that both ends of a hyperbolic depth are met.
-    const float length = glsl::mapDistance(fitted.map, sample.layer, ray, 1.0f);
+    const float length = glsl::mapDistance(fitted.map, sample.slice, ray, 1.0f);
     const float t = (0.001f + 0.998f * unit(random)) * length;
     sample.posL = ray.origin + ray.dir * t;
-    sample.depth = glsl::mapDepth(fitted.map, sample.layer, sample.posL);
+    sample.depth = glsl::mapDepth(fitted.map, sample.slice, sample.posL);
   }
   return samples;
 }
 
-RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place) {
-  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, layer, glm::vec2(place / static_cast<double>(fitted.map.side)));
+RayD rayThrough(const FittedMap& fitted, int slice, glm::dvec2 place) {
+  const glsl::Ray ray = glsl::mapTexelRay(fitted.map, slice, glm::vec2(place / static_cast<double>(fitted.map.width)));
   const glm::dmat3 worldFromLight(glm::dvec3(fitted.frame.rightW), glm::dvec3(fitted.frame.upW),
                                   glm::dvec3(fitted.frame.backW));
   return {.origin = glm::dvec3(fitted.frame.originW) + worldFromLight * glm::dvec3(ray.origin),

@@ -17,17 +17,17 @@ namespace gnomon::test {
 FittedMap fittedSpot();
 FittedMap fittedDirectional();
 
-// A point of the map's volume: the ray through a random uv of a layer, at a random depth. Layers take turns.
+// A point of the map's volume: the ray through a random uv of a slice, at a random depth. Slices take turns.
 struct MapSample {
-  int layer;
+  int slice;
   glm::vec2 uv;
   float depth;
   glm::vec3 posL;
 };
 std::vector<MapSample> samplesOf(const FittedMap& fitted, size_t count, uint32_t seed);
 
-// The light ray through a place on a layer, in texels (the centre of texel (x, y) is (x + 0.5, y + 0.5)).
-RayD rayThrough(const FittedMap& fitted, int layer, glm::dvec2 place);
+// The light ray through a place on a slice, in texels (the centre of texel (x, y) is (x + 0.5, y + 0.5)).
+RayD rayThrough(const FittedMap& fitted, int slice, glm::dvec2 place);
 
 // A unit normal that faces the light at posL, at any angle to the ray up to `mostTanAngle`.
 glm::vec3 facingNormal(const glm::vec3& rayDir, float tanAngle, float azimuth);

@@ -15,7 +15,7 @@ struct MapQuery {
 
 struct MapAnswer {
   vec2 uv;
-  int layer;
+  int slice;
   int covered;
   vec3 origin;
   vec3 dir;
@@ -29,7 +29,7 @@ GNOMON_FN MapAnswer answerMap(ShadowMap map, MapQuery query) {
   Ray ray = mapTexelRay(map, 0, query.uv);
   MapAnswer answer;
   answer.uv = point.uv;
-  answer.layer = point.layer;
+  answer.slice = point.slice;
   answer.covered = point.covered ? 1 : 0;
   answer.origin = ray.origin;
   answer.dir = ray.dir;
@@ -57,7 +57,7 @@ GNOMON_FN uint answerBias(ShadowMap map, BiasQuery query) {
   Receiver receiver = biasReceiver(query.method, map, query.params, query.receiver);
   MapPoint point = mapProject(map, receiver.posL);
   ivec2 texel = mapTexel(map, point.uv);
-  Tap tap = emptyTap(point.layer, texel, mapTexelRay(map, point.layer, mapTexelCenter(map, texel)));
+  Tap tap = emptyTap(point.slice, texel, mapTexelRay(map, point.slice, mapTexelCenter(map, texel)));
   tap.z1 = query.z1;
   tap.z2 = query.z2;
   tap.zBack = query.zBack;

@@ -63,7 +63,7 @@ float rasterTolerance(const FittedMap& fitted, const SurfaceHit& hit, int x, int
   };
   const float change =
       std::abs(planeDepth(x + 1, y) - planeDepth(x, y)) + std::abs(planeDepth(x, y + 1) - planeDepth(x, y));
-  return 5.97e-8f * (16.0f + 2.0f * change * static_cast<float>(fitted.map.side));
+  return 5.97e-8f * (16.0f + 2.0f * change * static_cast<float>(fitted.map.width));
 }
 
 class MapImageTest : public gpu::GpuTest {

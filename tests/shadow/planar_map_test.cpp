@@ -43,13 +43,13 @@ FittedMap fittedKind(const Kind& kind) {
   return test::see("contact", map, 64, 1).fit(map, {kWarp(kind.warp)});
 }
 
-// The greatest and the least W of the layer: 1 without a warp.
+// The greatest and the least W of the slice: 1 without a warp.
 double warpRatio(const FittedMap& fitted) {
   double least = 1e30, most = 0.0;
   for (const vec2& uv : {vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(1, 1)}) {
     const vec3 near = mapTexelRay(fitted.map, 0, uv).origin;
-    const double axis = fitted.map.mapLayers[0].clipFromLight[3][3] == 0.0f ? -static_cast<double>(near.z) : 1.0;
-    const double w = static_cast<double>(transform(fitted.map.mapLayers[0].clipFromLight, vec4(near, 1.0f)).w) / axis;
+    const double axis = fitted.map.mapSlices[0].clipFromLight[3][3] == 0.0f ? -static_cast<double>(near.z) : 1.0;
+    const double w = static_cast<double>(transform(fitted.map.mapSlices[0].clipFromLight, vec4(near, 1.0f)).w) / axis;
     least = std::min(least, w);
     most = std::max(most, w);
   }
@@ -72,7 +72,7 @@ TEST_P(PlanarMap, IsWarpedWhereItSaysSo) {
 // W, each sum rounds by some 4 ulps of M, the point itself was rounded twice on its way (ray and sum), and
 // the quotient halves: 16 * 2^-24 M / w.
 float uvTolerance(const FittedMap& fitted, const vec3& posL) {
-  const mat4& m = fitted.map.mapLayers[0].clipFromLight;
+  const mat4& m = fitted.map.mapSlices[0].clipFromLight;
   float terms = 0.0f;
   for (const int row : {0, 1, 3}) {
     const vec4 magnitudes(std::abs(m[0][row]), std::abs(m[1][row]), std::abs(m[2][row]), std::abs(m[3][row]));
@@ -124,7 +124,7 @@ TEST_P(PlanarMap, DepthSlopeIsTheDerivativeAlongTheRay) {
   for (const MapSample& sample : samplesOf(fitted_, 4096, 4)) {
     const Ray ray = mapTexelRay(fitted_.map, 0, sample.uv);
     // In double, since a difference of floats would say nothing.
-    const glm::dmat4 clip(fitted_.map.mapLayers[0].clipFromLight);
+    const glm::dmat4 clip(fitted_.map.mapSlices[0].clipFromLight);
     const auto depth = [&](double t) {
       const glm::dvec4 p = clip * glm::dvec4(glm::dvec3(sample.posL) + glm::dvec3(ray.dir) * t, 1.0);
       return p.z / p.w;
@@ -177,7 +177,7 @@ TEST_F(PlanarMapOnTheGpu, EveryFunctionEqualsTheCpuBitForBit) {
     int64_t worst = 0;
     for (size_t i = 0; i < queries.size(); ++i) {
       const MapAnswer expected = answerMap(fitted.map, queries[i]);
-      ASSERT_EQ(answers[i].layer, expected.layer);
+      ASSERT_EQ(answers[i].slice, expected.slice);
       ASSERT_EQ(answers[i].covered, expected.covered);
       const auto compare = [&](float a, float b) { worst = std::max(worst, gpu::ulpDistance(a, b)); };
       for (int c = 0; c < 2; ++c) compare(answers[i].uv[c], expected.uv[c]);

@@ -84,7 +84,7 @@ TEST_F(SnappingTest, EveryCascadeIsTheSameWithinATexel) {
   const FittedMap fitted = seen.fit(directionalParameterization(), {kCascades(3)});
   const glsl::Ray a = glsl::mapTexelRay(fitted.map, 0, {0.5f, 0.5f});
   const glsl::Ray b = glsl::mapTexelRay(fitted.map, 0, {0.5f, 0.5f + 1.0f / 256.0f});
-  // The finest layer's texel; each layer crosses at most once in each axis within it.
+  // The finest slice's texel; each slice crosses at most once in each axis within it.
   const auto texel = static_cast<double>(glm::length(a.origin - b.origin));
   EXPECT_LE(distinctImages(seen, directionalParameterization(), {kCascades(3)}, 0.5 * texel), 4u);
   EXPECT_EQ(distinctImages(seen, directionalParameterization(), {kSnap(false), kCascades(3)}, 0.5 * texel), 8u);

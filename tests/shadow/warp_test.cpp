@@ -30,7 +30,7 @@ glm::dvec2 uvOf(const FittedMap& fitted, const glm::dvec3& posW) {
 
 double wOf(const FittedMap& fitted, const glm::dvec3& posW) {
   const glm::vec3 posL = glsl::lightFromWorld(fitted.frame, glm::vec3(posW));
-  return static_cast<double>(glsl::transform(fitted.map.mapLayers[0].clipFromLight, glm::vec4(posL, 1.0f)).w);
+  return static_cast<double>(glsl::transform(fitted.map.mapSlices[0].clipFromLight, glm::vec4(posL, 1.0f)).w);
 }
 
 // Bounds of the receivers' images to [0,1]^2.
@@ -215,7 +215,7 @@ TEST(Warp, OfALightAmongWhatIsSeenCoversAllOfItAndSaysWhatItCost) {
     EXPECT_NE(notes.find(note), std::string::npos) << note << " is not among " << notes;
 }
 
-// However the sun stands, W stays within what kMostWarp allows, and no layer is mirrored: culling relies on it.
+// However the sun stands, W stays within what kMostWarp allows, and no slice is mirrored: culling relies on it.
 TEST(Warp, KeepsItsRatioAndItsHandAtEveryAngle) {
   for (const double elevation : {8.0, 30.0, 60.0, 90.0}) {
     for (int azimuth = 0; azimuth < 360; azimuth += 30) {
@@ -227,7 +227,7 @@ TEST(Warp, KeepsItsRatioAndItsHandAtEveryAngle) {
         for (const glm::vec2& uv : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(1, 1)}) {
           const glsl::Ray ray = glsl::mapTexelRay(fitted.map, 0, uv);
           const double w = static_cast<double>(
-              glsl::transform(fitted.map.mapLayers[0].clipFromLight, glm::vec4(ray.origin, 1.0f)).w);
+              glsl::transform(fitted.map.mapSlices[0].clipFromLight, glm::vec4(ray.origin, 1.0f)).w);
           least = std::min(least, w);
           most = std::max(most, w);
         }

@@ -32,7 +32,7 @@ glm::dmat4 clipFromLight(const LightModel& light, const MapWindow& window, const
 }  // namespace
 
 glm::dvec2 ReferenceMap::texelOf(const glm::dvec3& pointW) const {
-  return glm::dvec2(glsl::mapProject(map, glm::vec3(pointW - frameOriginW)).uv) * static_cast<double>(map.side);
+  return glm::dvec2(glsl::mapProject(map, glm::vec3(pointW - frameOriginW)).uv) * static_cast<double>(map.width);
 }
 
 RayD ReferenceMap::texelRay(const glm::dvec3& pointW) const {
@@ -45,7 +45,7 @@ Verdict ReferenceMap::verdict(const SurfaceSample& sample, int method, const gls
   if (!point.covered) return Verdict::Uncovered;
   const glm::ivec2 texel = glsl::mapTexel(map, point.uv);
   glsl::Tap tap = glsl::emptyTap(0, texel, glsl::mapTexelRay(map, 0, glsl::mapTexelCenter(map, texel)));
-  tap.z1 = depths[static_cast<size_t>(tap.texel.y * map.side + tap.texel.x)];
+  tap.z1 = depths[static_cast<size_t>(tap.texel.y * map.width + tap.texel.x)];
   bool known = false;
   return glsl::biasLit(method, map, params, receiver, tap, known) ? Verdict::Lit : Verdict::Shadow;
 }
@@ -56,10 +56,10 @@ ReferenceMap traceReferenceMap(const Tracer& tracer, const LightModel& light, co
   const glm::dmat4 clip = clipFromLight(light, window, result.frameOriginW);
   result.map = {};
   result.map.kind = glsl::kMapPlanar;
-  result.map.layerCount = 1;
-  result.map.side = result.map.rows = window.side;
+  result.map.sliceCount = 1;
+  result.map.width = result.map.height = window.side;
   result.map.sceneScale = computeBounds(tracer.scene()).diagonal();
-  result.map.mapLayers[0] = {glm::mat4(clip), glm::mat4(glm::inverse(clip))};
+  result.map.mapSlices[0] = {glm::mat4(clip), glm::mat4(glm::inverse(clip))};
   result.depths.assign(static_cast<size_t>(window.side) * static_cast<size_t>(window.side), 1.0f);
   const LightRays rays(tracer.scene(), light);
   tbb::parallel_for(0, window.side, [&](int y) {

@@ -96,19 +96,19 @@ TEST(EpipolarMap, TheSlopeIsTheDerivativeOfDepth) {
 TEST(EpipolarMap, ThetaWrapsAcrossItsSeamAndPhiAcrossItsPole) {
   const ShadowMap map = maps().front();
   ASSERT_TRUE(thetaGoesRound(map.epipolar));
-  for (int j = 0; j < map.rows; ++j) {
+  for (int j = 0; j < map.height; ++j) {
     for (const auto& [beyond, expected] :
-         {std::pair(ivec2(-1, j), ivec2(map.side - 1, j)), std::pair(ivec2(map.side, j), ivec2(0, j)),
-          std::pair(ivec2(map.side + 2, j), ivec2(2, j))}) {
+         {std::pair(ivec2(-1, j), ivec2(map.width - 1, j)), std::pair(ivec2(map.width, j), ivec2(0, j)),
+          std::pair(ivec2(map.width + 2, j), ivec2(2, j))}) {
       const vec3 posL = mapTexelRay(map, 0, mapTexelCenter(map, beyond)).dir * 2.0f;
       const MapTexel found = mapTexelAcross(map, 0, beyond, posL);
       ASSERT_TRUE(found.held);
       ASSERT_EQ(found.texel, expected);
     }
   }
-  for (int i = 0; i < map.side; ++i) {
+  for (int i = 0; i < map.width; ++i) {
     const MapTexel found = mapTexelAcross(map, 0, {i, -1}, vec3(0, 0, 1));
-    EXPECT_EQ(found.texel, ivec2((i + map.side / 2) % map.side, 0));
+    EXPECT_EQ(found.texel, ivec2((i + map.width / 2) % map.width, 0));
   }
   // Points a hair to either side of the seam, and on it.
   for (const float x : {-1e-7f, -1e-30f, 0.0f, 1e-30f, 1e-7f})
@@ -212,16 +212,16 @@ TEST(EpipolarBound, EveryColumnWhoseRayMeetsTheTriangleIsDrawn) {
     const EpipolarGrid& grid = map.epipolar;
     size_t met = 0, allRound = 0, wrapped = 0;
     std::vector<vec3> rays;
-    for (int y = 0; y < map.rows; ++y)
-      for (int x = 0; x < map.side; ++x) rays.push_back(mapTexelRay(map, 0, mapTexelCenter(map, {x, y})).dir);
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x) rays.push_back(mapTexelRay(map, 0, mapTexelCenter(map, {x, y})).dir);
     for (int n = 0; n < 600; ++n) {
       const LightTriangle triangle = awkwardTriangle(random, n);
       const EpipolarBox box = epipolarBox(grid, triangle);
       allRound += box.allRound ? 1 : 0;
       wrapped += epipolarBoxOverSeam(grid, box) ? 1 : 0;
-      for (int y = 0; y < map.rows; ++y) {
-        for (int x = 0; x < map.side; ++x) {
-          const vec3& dir = rays[static_cast<size_t>(y * map.side + x)];
+      for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+          const vec3& dir = rays[static_cast<size_t>(y * map.width + x)];
           if (!isWithin(sideDistances(triangle, dir))) continue;
           ++met;
           ASSERT_TRUE(isDrawn(grid, box, dvec2(x + 0.5, y + 0.5))) << n << ": " << x << ", " << y;

@@ -22,7 +22,7 @@ struct MediumAnswer {
   vec3 dimmed;     // transmittance over a metre of phi
   vec3 integrand;
   vec2 uv;         // of dir in a density's table
-  int layer;
+  int slice;
   vec3 dirAgain;
 };
 
@@ -38,8 +38,8 @@ GNOMON_FN MediumAnswer mediumAnswer(MediumQuery query) {
   reach.layers = 2;
   LightDirection direction = lightDirection(reach, query.dir);
   answer.uv = direction.uv;
-  answer.layer = direction.layer;
-  answer.dirAgain = directionFromLight(reach, direction.layer, direction.uv);
+  answer.slice = direction.slice;
+  answer.dirAgain = directionFromLight(reach, direction.slice, direction.uv);
   return answer;
 }
 

@@ -131,7 +131,7 @@ TEST_F(MediumOnTheGpu, IsThatOfTheCpu) {
     const MediumAnswer cpu = mediumAnswer(queries[n]);
     const MediumAnswer& gpu = answers[n];
     ASSERT_LE(gpu::ulpDistance(gpu.phase, cpu.phase), exactTolerance());
-    ASSERT_EQ(gpu.layer, cpu.layer);
+    ASSERT_EQ(gpu.slice, cpu.slice);
     for (int c = 0; c < 3; ++c) {
       // A chain of quotients, which a driver may fold.
       ASSERT_LE(gpu::ulpDistance(gpu.perMetre[c], cpu.perMetre[c]), exactTolerance() + 2);

@@ -108,12 +108,12 @@ TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
       const glm::dmat3 worldFromLight(glm::dvec3(columns.frame.rightW), glm::dvec3(columns.frame.upW),
                                       glm::dvec3(columns.frame.backW));
       size_t off = 0, covered = 0;
-      for (int y = 0; y < map.rows; ++y) {
-        for (int x = 0; x < map.side; ++x) {
+      for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
           const glsl::Ray ray = glsl::mapTexelRay(map, 0, glsl::mapTexelCenter(map, {x, y}));
           const auto hit = w.seen.tracer().firstHit({.origin = glm::dvec3(columns.frame.originW),
                                                      .dir = glm::normalize(worldFromLight * glm::dvec3(ray.dir))});
-          const float stored = occluders[static_cast<size_t>(y * map.side + x)];
+          const float stored = occluders[static_cast<size_t>(y * map.width + x)];
           const float upper = glsl::alphaUpper(map.epipolar);
           const float exact =
               hit ? glsl::epipolarFromLight(map.epipolar.eyeDistance, ray.dir * static_cast<float>(hit->distance)).alpha
@@ -126,7 +126,7 @@ TEST_F(VolumeTest, DirectColumnsHoldTheFirstHitOfTheirRays) {
           ++off;
         }
       }
-      const auto all = static_cast<size_t>(map.side * map.rows);
+      const auto all = static_cast<size_t>(map.width * map.height);
       EXPECT_LT(off, 2 + all / 2000);
       EXPECT_GT(covered, all / 200);  // `tilted-planes` is a patch of the whole sphere
     }

@@ -36,9 +36,9 @@ struct HostSource {
 
   bool isColumns() const { return map.map.kind == glsl::kMapEpipolar; }
 
-  float depthAt(int layer, const glm::ivec2& texel) const {
-    const size_t rows = map.map.rows, side = map.map.side;
-    return depths[(layer * rows + texel.y) * side + texel.x];
+  float depthAt(int slice, const glm::ivec2& texel) const {
+    const size_t rows = map.map.height, side = map.map.width;
+    return depths[(slice * rows + texel.y) * side + texel.x];
   }
 };
 
@@ -56,7 +56,7 @@ Found lookUp(const HostSource& source, const glm::vec3& dirL, float measured) {
   const glsl::ShadowMap& map = source.map.map;
   const glm::vec3 dirS = glsl::sourceDirection(source.columns.frame, source.map.frame, dirL);
   const auto alphaAt = [&](const glsl::MapPoint& place) {
-    return glsl::alphaLookedUp(map, place, source.depthAt(place.layer, glsl::mapTexel(map, place.uv)), dirS, dirL,
+    return glsl::alphaLookedUp(map, place, source.depthAt(place.slice, glsl::mapTexel(map, place.uv)), dirS, dirL,
                                source.columns.map.epipolar.eyeDistance);
   };
   const glsl::MapPoint center = glsl::mapProject(map, dirS);
@@ -67,7 +67,7 @@ Found lookUp(const HostSource& source, const glm::vec3& dirL, float measured) {
     const glm::vec3 sign((corner & 1) != 0 ? 1.0f : -1.0f, (corner & 2) != 0 ? 1.0f : -1.0f,
                          (corner & 4) != 0 ? 1.0f : -1.0f);
     const glsl::MapPoint place = glsl::mapProject(map, dirS + sign * kDirectionNoise);
-    if (place.layer == center.layer && glsl::mapTexel(map, place.uv) == centerTexel) continue;
+    if (place.slice == center.slice && glsl::mapTexel(map, place.uv) == centerTexel) continue;
     found.betweenTexels = true;
     const float alpha = alphaAt(place);
     if (alpha == measured || std::abs(alpha - measured) < std::abs(found.alpha - measured)) found.alpha = alpha;
@@ -114,7 +114,7 @@ RayD sourceRayW(const FittedMap& columns, const FittedMap& source, int theta, in
   const glm::vec3 dirS = glsl::sourceDirection(columns.frame, source.frame, columnDirection(columns, theta, phi));
   const glsl::MapPoint point = glsl::mapProject(source.map, dirS);
   const glm::vec2 center = glsl::mapTexelCenter(source.map, glsl::mapTexel(source.map, point.uv));
-  const glm::dvec3 dir(glsl::mapTexelRay(source.map, point.layer, center).dir);
+  const glm::dvec3 dir(glsl::mapTexelRay(source.map, point.slice, center).dir);
   const glsl::LightFrame& frame = source.frame;
   return {.origin = glm::dvec3(frame.originW),
           .dir = glm::normalize(glm::dvec3(frame.rightW) * dir.x + glm::dvec3(frame.upW) * dir.y +
@@ -164,7 +164,7 @@ ColumnSource columnSource(const ShadowVolume& volume) {
   source.covers = [&map](const glm::dvec3& positionW) {
     const glm::vec3 posL = glsl::lightFromWorld(map.frame, glm::vec3(positionW));
     const glsl::MapPoint point = glsl::mapProject(map.map, posL);
-    const float depth = glsl::mapDepth(map.map, point.layer, posL);
+    const float depth = glsl::mapDepth(map.map, point.slice, posL);
     return point.covered && depth >= 0.0f && depth < 1.0f;
   };
   return source;

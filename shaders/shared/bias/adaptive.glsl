@@ -23,26 +23,26 @@ GNOMON_FN float adaptiveEpsilon(ShadowMap map, BiasParams params, Receiver recei
   vec3 atL = occluderL;
   if (params.epsilonAt == kEpsilonAtFragment) atL = receiver.posL;
   if (params.epsilonAt == kEpsilonAtStored) {
-    atL = tap.ray.origin + tap.ray.dir * mapDistance(map, tap.layer, tap.ray, tap.z1);
+    atL = tap.ray.origin + tap.ray.dir * mapDistance(map, tap.slice, tap.ray, tap.z1);
   }
-  return mapDepthSlope(map, tap.layer, atL, tap.ray.dir) * map.sceneScale * params.knobs[kAdaptiveK];
+  return mapDepthSlope(map, tap.slice, atL, tap.ray.dir) * map.sceneScale * params.knobs[kAdaptiveK];
 }
 
 GNOMON_FN bool adaptiveLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  PlaneDepth occluder = receiverPlaneDepth(map, tap.layer, receiver, tap.ray);
+  PlaneDepth occluder = receiverPlaneDepth(map, tap.slice, receiver, tap.ray);
   return occluder.depth - adaptiveEpsilon(map, params, receiver, tap, occluder.posL) <= tap.z1;
 }
 
 // The authors' own shaders never take a depth behind the receiver's, which the text does not say.
 GNOMON_FN bool adaptiveClampedLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  PlaneDepth occluder = receiverPlaneDepth(map, tap.layer, receiver, tap.ray);
-  float depth = min(occluder.depth, mapDepth(map, tap.layer, receiver.posL));
+  PlaneDepth occluder = receiverPlaneDepth(map, tap.slice, receiver, tap.ray);
+  float depth = min(occluder.depth, mapDepth(map, tap.slice, receiver.posL));
   return depth - adaptiveEpsilon(map, params, receiver, tap, occluder.posL) <= tap.z1;
 }
 
 // Ehm et al., WSCG 2015: epsilon grows as the light grazes.
 GNOMON_FN bool adaptiveEhmLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  PlaneDepth occluder = receiverPlaneDepth(map, tap.layer, receiver, tap.ray);
+  PlaneDepth occluder = receiverPlaneDepth(map, tap.slice, receiver, tap.ray);
   float facing = dot(receiver.normalL, tap.ray.dir);
   float grow = min(1.0f / max(facing * facing, 1e-6f), 100.0f);
   return occluder.depth - adaptiveEpsilon(map, params, receiver, tap, occluder.posL) * grow <= tap.z1;

@@ -11,9 +11,9 @@ const int kConstantOffset = 0;  // metres
 
 // Lit where the receiver, at its depth on the texel's ray, lies at most `offset` metres behind what the texel stores.
 GNOMON_FN bool litBehind(ShadowMap map, Receiver receiver, Tap tap, float stored, float offset) {
-  float depth = mapDepth(map, tap.layer, receiver.posL);
-  float distance_ = mapDistance(map, tap.layer, tap.ray, depth);
-  return distance_ <= mapDistance(map, tap.layer, tap.ray, stored) + offset;
+  float depth = mapDepth(map, tap.slice, receiver.posL);
+  float distance_ = mapDistance(map, tap.slice, tap.ray, depth);
+  return distance_ <= mapDistance(map, tap.slice, tap.ray, stored) + offset;
 }
 
 // Behind the nearest depth.
@@ -22,9 +22,9 @@ GNOMON_FN bool litWithOffset(ShadowMap map, Receiver receiver, Tap tap, float of
 }
 
 // The depth of a point `offset` metres nearer the light. A point that would pass the near end stays there.
-GNOMON_FN float depthTowardsLight(ShadowMap map, int layer, vec3 posL, Ray ray, float offset) {
+GNOMON_FN float depthTowardsLight(ShadowMap map, int slice, vec3 posL, Ray ray, float offset) {
   float room = dot(posL - ray.origin, ray.dir);
-  return mapDepth(map, layer, posL - ray.dir * min(offset, max(room, 0.0f)));
+  return mapDepth(map, slice, posL - ray.dir * min(offset, max(room, 0.0f)));
 }
 
 GNOMON_FN bool constantLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {

@@ -16,8 +16,8 @@ GNOMON_SHARED_BEGIN
 const int kDualOffset = 0;  // metres; midpoint has no knob
 
 GNOMON_FN float halfLayerGap(ShadowMap map, Tap tap) {
-  float first = mapDistance(map, tap.layer, tap.ray, tap.z1);
-  return 0.5f * (mapDistance(map, tap.layer, tap.ray, tap.z2) - first);
+  float first = mapDistance(map, tap.slice, tap.ray, tap.z1);
+  return 0.5f * (mapDistance(map, tap.slice, tap.ray, tap.z2) - first);
 }
 
 GNOMON_FN bool midpointLit(ShadowMap map, Receiver receiver, Tap tap) {

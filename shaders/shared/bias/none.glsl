@@ -7,7 +7,7 @@
 GNOMON_SHARED_BEGIN
 
 GNOMON_FN bool noneLit(ShadowMap map, Receiver receiver, Tap tap) {
-  return mapDepth(map, tap.layer, receiver.posL) <= tap.z1;
+  return mapDepth(map, tap.slice, receiver.posL) <= tap.z1;
 }
 
 GNOMON_SHARED_END

@@ -15,8 +15,8 @@ const int kNormalOffsetTexels = 0;
 GNOMON_FN Receiver normalOffsetReceiver(ShadowMap map, BiasParams params, Receiver receiver) {
   MapPoint point = mapProject(map, receiver.posL);
   if (!point.covered) return receiver;
-  Ray ray = mapTexelRay(map, point.layer, point.uv);
-  Ray next = mapTexelRay(map, point.layer, vec2(point.uv.x + 1.0f / float(map.side), point.uv.y));
+  Ray ray = mapTexelRay(map, point.slice, point.uv);
+  Ray next = mapTexelRay(map, point.slice, vec2(point.uv.x + 1.0f / float(map.width), point.uv.y));
   float along = dot(receiver.posL - ray.origin, ray.dir);
   vec3 across = (next.origin + next.dir * along) - (ray.origin + ray.dir * along);
   float texel = length(across);  // metres

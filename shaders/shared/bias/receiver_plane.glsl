@@ -14,16 +14,16 @@ GNOMON_SHARED_BEGIN
 const int kReceiverPlaneOffset = 0;  // metres
 
 GNOMON_FN bool receiverPlaneLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  float depth = depthTowardsLight(map, tap.layer, receiver.posL, tap.ray, params.knobs[kReceiverPlaneOffset]);
+  float depth = depthTowardsLight(map, tap.slice, receiver.posL, tap.ray, params.knobs[kReceiverPlaneOffset]);
   MapPoint point = mapProject(map, receiver.posL);
-  if (point.layer != tap.layer) return depth <= tap.z1;  // a tap across an edge of the map: no gradient leads there
+  if (point.slice != tap.slice) return depth <= tap.z1;  // a tap across an edge of the map: no gradient leads there
   vec2 uv = point.uv;
-  vec2 texel = vec2(1.0f / float(map.side), 1.0f / float(map.rows));
-  PlaneDepth here = receiverPlaneDepth(map, tap.layer, receiver, mapTexelRay(map, tap.layer, uv));
-  PlaneDepth right = receiverPlaneDepth(map, tap.layer, receiver,
-                                        mapTexelRay(map, tap.layer, vec2(uv.x + texel.x, uv.y)));
-  PlaneDepth below = receiverPlaneDepth(map, tap.layer, receiver,
-                                        mapTexelRay(map, tap.layer, vec2(uv.x, uv.y + texel.y)));
+  vec2 texel = vec2(1.0f / float(map.width), 1.0f / float(map.height));
+  PlaneDepth here = receiverPlaneDepth(map, tap.slice, receiver, mapTexelRay(map, tap.slice, uv));
+  PlaneDepth right = receiverPlaneDepth(map, tap.slice, receiver,
+                                        mapTexelRay(map, tap.slice, vec2(uv.x + texel.x, uv.y)));
+  PlaneDepth below = receiverPlaneDepth(map, tap.slice, receiver,
+                                        mapTexelRay(map, tap.slice, vec2(uv.x, uv.y + texel.y)));
   vec2 center = mapTexelCenter(map, tap.texel);
   float change = (right.depth - here.depth) * ((center.x - uv.x) / texel.x) +
                  (below.depth - here.depth) * ((center.y - uv.y) / texel.y);

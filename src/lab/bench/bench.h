@@ -51,7 +51,7 @@ struct StartTimes {
 };
 
 struct BenchOptions {
-  int64_t mapTexels = 6291456;  // of all layers of a map together
+  int64_t mapTexels = 6291456;  // of all slices of a map together
   MapOptions mapOptions;
   CullMode cull = CullMode::Solids;
   int repeats = 9;

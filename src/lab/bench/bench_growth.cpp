@@ -89,7 +89,7 @@ Growth withTriangles(const gpu::DeviceOptions& device, const BenchOptions& optio
 }
 
 Growth withMapSize(const Session& session, const BenchOptions& options) {
-  Curves curves("map texels", "texels of all layers", options.repeats);
+  Curves curves("map texels", "texels of all slices", options.repeats);
   for (int64_t side = 256; side <= 2048; side *= 2) {
     const int64_t texels = 6 * side * side;
     const int paraboloidSide = static_cast<int>(std::lround(std::sqrt(static_cast<double>(texels) / 2.0)));

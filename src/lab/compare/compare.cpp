@@ -172,9 +172,9 @@ class MapComparison {
       Row row;
       row.map = parameterization_.name();
       row.light = lit_.source().name;
-      row.mapSide = fitted.map.side;
-      row.layers = fitted.map.layerCount;
-      row.mapTexels = size_t{1} * fitted.map.side * fitted.map.rows * fitted.map.layerCount;
+      row.mapSide = fitted.map.width;
+      row.layers = fitted.map.sliceCount;
+      row.mapTexels = size_t{1} * fitted.map.width * fitted.map.height * fitted.map.sliceCount;
       row.mapDimensions = mapSizeText(fitted);
       row.params = paramsOf(entry.method, *filter, parameterization_, fitted, options_);
       row.filter = filter->name;
@@ -201,7 +201,7 @@ class MapComparison {
     names.labelStem = fmt::format("{}/{}{}", folder_, row.bias, row.tuning ? ".tuned" : "");
     names.stem = names.labelStem + (row.filter == "none" ? "" : "." + row.filter);
     names.title = fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "", row.mapSide,
-                              lit_.fitted().map.rows);
+                              lit_.fitted().map.height);
     names.writesLabels = row.filter == options_.filters.front()->name;
     return names;
   }
@@ -237,9 +237,9 @@ class MapComparison {
   MapSummary summarizeMap(const FittedMap& fitted) {
     MapSummary summary{.map = parameterization_.name(),
                        .light = lit_.source().name,
-                       .side = fitted.map.side,
-                       .rows = fitted.map.rows,
-                       .layers = fitted.map.layerCount,
+                       .width = fitted.map.width,
+                       .height = fitted.map.height,
+                       .layers = fitted.map.sliceCount,
                        .zNear = fitted.zNear,
                        .zFar = fitted.zFar};
     if (const std::optional<SolidAngles> angles = computeSolidAngles(fitted))
@@ -321,7 +321,7 @@ CompareOptions optionsFor(const CompareOptions& options, const Parameterization&
 
 std::string mapSizeText(const FittedMap& fitted) {
   const glsl::EpipolarGrid& grid = fitted.map.epipolar;
-  if (fitted.map.kind != glsl::kMapEpipolar) return fmt::format("{}", fitted.map.side);
+  if (fitted.map.kind != glsl::kMapEpipolar) return fmt::format("{}", fitted.map.width);
   return volumeSizeName({.alpha = grid.alphaCount, .theta = grid.thetaCount, .phi = grid.phiCount});
 }
 

@@ -59,7 +59,7 @@ RenderedPicture labels(const Subject& subject) {
   LightOnMap& lit = subject.lit;
   const LabelledResult judged = lit.judge(subject.method);
   const std::string title = fmt::format("{} {}, {} x {} texels", lit.parameterization().name(),
-                                        subject.method.bias->name, lit.fitted().map.side, lit.fitted().map.rows);
+                                        subject.method.bias->name, lit.fitted().map.width, lit.fitted().map.height);
   std::vector<float> numbers;
   for (const Label label : judged.labels.labels) numbers.push_back(static_cast<float>(label));
   return {
@@ -97,7 +97,7 @@ RenderedPicture texelDensity(const Subject& subject) {
   const std::vector<float> densities = lit.texelDensities();
   const MapSetup& setup = lit.setup();
   const std::string title = fmt::format("{}, {} x {} x {} texels, fit {}, warp {}", lit.parameterization().name(),
-                                        lit.fitted().map.layerCount, setup.side, setup.side,
+                                        lit.fitted().map.sliceCount, setup.side, setup.side,
                                         setup.options.text(kWindowFit), setup.options.text(kWarp));
   return {densityPicture(lit.receivers(), densities, title), oneChannel(subject, densities), {"texels_per_m2"}, {}};
 }

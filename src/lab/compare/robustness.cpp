@@ -93,7 +93,7 @@ Tuning tuningOf(const TunedMethod& tuned) {
 Tuning Robustness::judge(const TunedMethod& tuned) {
   Tuning tuning = tuningOf(tuned);
   if (otherCamera_) tuning.otherCamera = {judgeAt(*otherCamera_, tuned), otherView_.camera().name};
-  tuning.otherMapSize = {judgeAt(*otherMapSize_, tuned), otherMapSize_->lit.fitted().map.side};
+  tuning.otherMapSize = {judgeAt(*otherMapSize_, tuned), otherMapSize_->lit.fitted().map.width};
   return tuning;
 }
 

@@ -36,7 +36,7 @@ Pictures writeMapPictures(const gpu::Device& device, const Receivers& receivers,
   };
   const DepthImages depth = depthInMetres(device, occluders);
   writeDepth("depth", depth.first);
-  if (map.layerCount > 1) {
+  if (map.sliceCount > 1) {
     const std::string path = mapName + "/unfolded.png";
     writePng(outDir / path, unfoldedPicture(depthPicture(depth.first), occluders.fitted(), {64, 48, 64}));
     pictures.emplace_back("unfolded", path);

@@ -127,7 +127,7 @@ std::string comparisonHeader(const Session& session, const Comparison& compariso
     if (!map.solidAngles || map.map == last) continue;
     last = map.map;
     text += fmt::format("{} map, {} x {} x {} texels: from {:.3g} to {:.3g} steradians, 1 to {:.2f}\n", map.map,
-                        map.layers, map.side, map.rows, map.solidAngles->smallest, map.solidAngles->largest,
+                        map.layers, map.width, map.height, map.solidAngles->smallest, map.solidAngles->largest,
                         map.solidAngles->largest / map.solidAngles->smallest);
   }
   return text;

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-// Metres from the light (its plane, when directional) to what the map stores, layers side by side; infinity
+// Metres from the light (its plane, when directional) to what the map stores, slices side by side; infinity
 // where it stores nothing. Both layers of a two-layer map, and their distance along the texel's ray.
 struct DepthImages {
   ImageF first;

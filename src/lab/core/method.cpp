@@ -12,7 +12,7 @@ namespace gnomon {
 int mapSideOf(const MapChoice& choice, const Parameterization& map) {
   int side = choice.mapSide;
   if (choice.mapTexels != 0) {
-    const double each = static_cast<double>(choice.mapTexels) / map.layerCount(choice.mapOptions);
+    const double each = static_cast<double>(choice.mapTexels) / map.sliceCount(choice.mapOptions);
     side = each >= 0.0 ? static_cast<int>(std::lround(std::min(std::sqrt(each), 1e6))) : 0;
   }
   if (side < 2 || side > 16384)

@@ -8,13 +8,13 @@
 namespace gnomon {
 
 struct MapChoice {
-  int mapSide = 1024;     // texels of a layer's side
-  int64_t mapTexels = 0;  // of all layers together; not 0: picks each map's side instead of mapSide
+  int mapSide = 1024;     // texels of a slice's side
+  int64_t mapTexels = 0;  // of all slices together; not 0: picks each map's side instead of mapSide
   MapOptions mapOptions;
   CullMode cull = CullMode::Solids;
 };
 
-// The side of a map's layers, texels. Throws UsageError outside 2..16384.
+// The side of a map's slices, texels. Throws UsageError outside 2..16384.
 int mapSideOf(const MapChoice& choice, const Parameterization& map);
 MapSetup mapSetupOf(const MapChoice& choice, const Parameterization& map);
 

@@ -69,7 +69,7 @@ void addSurfaces(const SceneView& scene, ShadowPasses& passes, const GroundTruth
 }
 
 // With the exact shadow, so that pictures differ by their medium alone.
-ImageF surfaceLayer(const SceneView& scene, ShadowPasses& passes, const FogView& view, float ambient,
+ImageF surfaceSlice(const SceneView& scene, ShadowPasses& passes, const FogView& view, float ambient,
                     const std::vector<GroundTruth>& exacts) {
   ImageF surface(scene.view().width, scene.view().height, 3);
   const glm::dvec3 eyeW(scene.view().eyeW);
@@ -137,7 +137,7 @@ FogView lookIntoFog(const SceneView& scene, ShadowPasses& passes, const std::vec
   const Receivers& receivers = exacts.front().receivers;  // where they are does not depend on the light
   view.ends = viewRayEnds(scene.view(), receivers, view.model.reach);
   view.receiversW = mediaReceiversW(scene.view(), receivers, view.model.reach);
-  view.surface = surfaceLayer(scene, passes, view, medium.ambient, exacts);
+  view.surface = surfaceSlice(scene, passes, view, medium.ambient, exacts);
   return view;
 }
 

@@ -102,8 +102,8 @@ TemplateData mapView(const MapSummary& map, size_t index, ReportPictureShelf& sh
   view.set("index", std::to_string(index));
   view.set("map", mapText(map.map, map.light));
   std::string text;
-  if (map.side != 0)
-    text = fmt::format("{} × {} texels, {} layer{}. ", map.side, map.side, map.layers, map.layers == 1 ? "" : "s");
+  if (map.width != 0)
+    text = fmt::format("{} × {} texels, {} slice{}. ", map.width, map.height, map.layers, map.layers == 1 ? "" : "s");
   if (map.zNear && map.zFar)
     text += fmt::format("Depth from {:.4g} to {:.4g} m. Near is bright.", shortest(*map.zNear), shortest(*map.zFar));
   view.set("describe", text);

@@ -74,7 +74,7 @@ TemplateData configurationView(const Row& row) {
   TemplateData list = viewList();
   addPair(list, "bias", row.bias);
   addPair(list, "map",
-          fmt::format("{}, {} × {} texels, {} layer{}", mapText(row.map, row.light), row.mapSide, row.mapSide,
+          fmt::format("{}, {} × {} texels, {} slice{}", mapText(row.map, row.light), row.mapSide, row.mapSide,
                       row.layers, row.layers == 1 ? "" : "s"));
   addPair(list, "filter", row.filter);
   for (const Param& param : row.params) {

@@ -11,9 +11,9 @@ namespace gnomon {
 
 namespace {
 
-// Where a layer's square stands in the picture, in squares.
-glm::ivec2 placeOf(const FittedMap& fitted, int layer) {
-  return fitted.unfoldedAt.empty() ? glm::ivec2(layer, 0) : fitted.unfoldedAt[static_cast<size_t>(layer)];
+// Where a slice's square stands in the picture, in squares.
+glm::ivec2 placeOf(const FittedMap& fitted, int slice) {
+  return fitted.unfoldedAt.empty() ? glm::ivec2(slice, 0) : fitted.unfoldedAt[static_cast<size_t>(slice)];
 }
 
 // The tangent of half the solid angle of a spherical triangle.
@@ -30,11 +30,11 @@ constexpr SolidAngles kNoAngles{.smallest = 1e30};
 // Unit rays through the corners of texels, one line of them.
 using CornerRow = std::vector<glm::dvec3>;
 
-CornerRow cornerRow(const glsl::ShadowMap& map, int layer, int y) {
-  CornerRow corners(static_cast<size_t>(map.side) + 1);
-  for (int x = 0; x <= map.side; ++x) {
-    const glm::vec2 uv = glm::vec2(x, y) / static_cast<float>(map.side);
-    corners[static_cast<size_t>(x)] = glm::normalize(glm::dvec3(glsl::mapTexelRay(map, layer, uv).dir));
+CornerRow cornerRow(const glsl::ShadowMap& map, int slice, int y) {
+  CornerRow corners(static_cast<size_t>(map.width) + 1);
+  for (int x = 0; x <= map.width; ++x) {
+    const glm::vec2 uv = glm::vec2(x, y) / static_cast<float>(map.width);
+    corners[static_cast<size_t>(x)] = glm::normalize(glm::dvec3(glsl::mapTexelRay(map, slice, uv).dir));
   }
   return corners;
 }
@@ -61,18 +61,18 @@ void addTexel(SolidAngles& angles, const glm::dvec3& a, const glm::dvec3& b, con
   angles.sum += angle;
 }
 
-// Of rows that follow one another, counted through all layers.
+// Of rows that follow one another, counted through all slices.
 SolidAngles anglesOfRows(const glsl::ShadowMap& map, int begin, int end) {
   SolidAngles angles = kNoAngles;
   CornerRow above, below;
   for (int row = begin; row < end; ++row) {
-    const int layer = row / map.side;
-    const int y = row % map.side;
-    above = row == begin || y == 0 ? cornerRow(map, layer, y) : std::move(below);
-    below = cornerRow(map, layer, y + 1);
-    for (int x = 0; x < map.side; ++x) {
+    const int slice = row / map.width;
+    const int y = row % map.width;
+    above = row == begin || y == 0 ? cornerRow(map, slice, y) : std::move(below);
+    below = cornerRow(map, slice, y + 1);
+    for (int x = 0; x < map.width; ++x) {
       const auto i = static_cast<size_t>(x);
-      if (glsl::mapHoldsTexel(map, layer, {x, y})) addTexel(angles, above[i], above[i + 1], below[i], below[i + 1]);
+      if (glsl::mapHoldsTexel(map, slice, {x, y})) addTexel(angles, above[i], above[i + 1], below[i], below[i + 1]);
     }
   }
   return angles;
@@ -82,17 +82,17 @@ SolidAngles anglesOfRows(const glsl::ShadowMap& map, int begin, int end) {
 
 Image8 unfoldedPicture(const Image8& layers, const FittedMap& fitted, const glm::u8vec3& outside) {
   const glsl::ShadowMap& map = fitted.map;
-  const int side = map.side;
+  const int side = map.width;
   glm::ivec2 squares(1);
-  for (int layer = 0; layer < map.layerCount; ++layer) squares = glm::max(squares, placeOf(fitted, layer) + 1);
+  for (int slice = 0; slice < map.sliceCount; ++slice) squares = glm::max(squares, placeOf(fitted, slice) + 1);
   Image8 picture(squares.x * side, squares.y * side, 3);
   for (size_t i = 0; i < picture.values.size(); ++i) picture.values[i] = outside[static_cast<int>(i % 3)];
-  for (int layer = 0; layer < map.layerCount; ++layer) {
-    const glm::ivec2 corner = placeOf(fitted, layer) * side;
+  for (int slice = 0; slice < map.sliceCount; ++slice) {
+    const glm::ivec2 corner = placeOf(fitted, slice) * side;
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x)
-        if (glsl::mapHoldsTexel(map, layer, {x, y}))
-          std::copy_n(layers.at(layer * side + x, y), 3, picture.at(corner.x + x, corner.y + y));
+        if (glsl::mapHoldsTexel(map, slice, {x, y}))
+          std::copy_n(layers.at(slice * side + x, y), 3, picture.at(corner.x + x, corner.y + y));
   }
   return picture;
 }
@@ -100,7 +100,7 @@ Image8 unfoldedPicture(const Image8& layers, const FittedMap& fitted, const glm:
 std::optional<SolidAngles> computeSolidAngles(const FittedMap& fitted) {
   if (!fitted.positional) return std::nullopt;
   const glsl::ShadowMap& map = fitted.map;
-  const int rowCount = map.layerCount * map.side;
+  const int rowCount = map.sliceCount * map.width;
   std::vector<SolidAngles> parts(static_cast<size_t>((rowCount + kRowsTogether - 1) / kRowsTogether));
   tbb::parallel_for(size_t{0}, parts.size(), [&](size_t part) {
     const int begin = static_cast<int>(part) * kRowsTogether;

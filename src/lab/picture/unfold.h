@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-// Layers side by side (as DepthImages has them) laid out as they lie around the light; `outside` where there
+// Slices side by side (as DepthImages has them) laid out as they lie around the light; `outside` where there
 // is no texel (FittedMap::unfoldedAt).
 //
 //   cube        +Y           paraboloid  two discs      others  side by side

@@ -55,30 +55,30 @@ struct TexelSolidAngles {
 
 struct MapSummary {
   std::string map, light;
-  int side = 0, rows = 0, layers = 0;
+  int width = 0, height = 0, layers = 0;
   std::optional<float> zNear, zFar;
   std::optional<TexelSolidAngles> solidAngles;
   Pictures pictures;
   std::vector<std::pair<std::string, Pictures>> filteredTruths;
 
   static constexpr auto fields() {
-    return std::tuple(
-        field("map", &MapSummary::map, {.says = "parameterization"}),
-        field("light", &MapSummary::light, {.says = "name of the light", .absent = Absent::Earlier}),
-        field("map_size", &MapSummary::side, {.unit = "texels", .says = "width of a slice", .absent = Absent::Earlier}),
-        field("map_rows", &MapSummary::rows,
-              {.unit = "texels", .says = "height of a slice", .absent = Absent::Earlier}),
-        field("layers", &MapSummary::layers,
-              {.says = "number of slices: faces, halves, cascades", .absent = Absent::Earlier}),
-        field("z_near", &MapSummary::zNear, {.unit = "metres", .says = "of the first slice"}),
-        field("z_far", &MapSummary::zFar, {.unit = "metres", .says = "of the first slice"}),
-        field("texel_solid_angle", &MapSummary::solidAngles,
-              {.says = "null unless the map covers directions around a point; below"}),
-        field("pictures", &MapSummary::pictures,
-              {.says = "paths relative to results.json; below", .absent = Absent::Earlier}),
-        field("truth_filtered", &MapSummary::filteredTruths,
-              {.says = "by filter, {`visibility`, `beauty`} of the truth through the same kernel",
-               .absent = Absent::Earlier}));
+    return std::tuple(field("map", &MapSummary::map, {.says = "parameterization"}),
+                      field("light", &MapSummary::light, {.says = "name of the light", .absent = Absent::Earlier}),
+                      field("map_size", &MapSummary::width,
+                            {.unit = "texels", .says = "width of a slice", .absent = Absent::Earlier}),
+                      field("map_rows", &MapSummary::height,
+                            {.unit = "texels", .says = "height of a slice", .absent = Absent::Earlier}),
+                      field("layers", &MapSummary::layers,
+                            {.says = "number of slices: faces, halves, cascades", .absent = Absent::Earlier}),
+                      field("z_near", &MapSummary::zNear, {.unit = "metres", .says = "of the first slice"}),
+                      field("z_far", &MapSummary::zFar, {.unit = "metres", .says = "of the first slice"}),
+                      field("texel_solid_angle", &MapSummary::solidAngles,
+                            {.says = "null unless the map covers directions around a point; below"}),
+                      field("pictures", &MapSummary::pictures,
+                            {.says = "paths relative to results.json; below", .absent = Absent::Earlier}),
+                      field("truth_filtered", &MapSummary::filteredTruths,
+                            {.says = "by filter, {`visibility`, `beauty`} of the truth through the same kernel",
+                             .absent = Absent::Earlier}));
   }
 };
 

@@ -204,7 +204,7 @@ MapSummary mapOfSchema1(const TruthSummary& truth, const fs::path& folder, const
   MapSummary map{.map = truth.map, .zNear = truth.zNear, .zFar = truth.zFar};
   const auto row = std::ranges::find(rows, map.map, &Row::map);
   if (row != rows.end()) {
-    map.side = map.rows = row->mapSide;
+    map.width = map.height = row->mapSide;
     map.layers = row->layers;
   }
   const std::pair<const char*, const char*> names[] = {

@@ -9,7 +9,7 @@
 GNOMON_SHARED_BEGIN
 
 GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  return mapDepth(map, tap.layer, receiver.posL) - params.knobs[kUserOffset] <= tap.z1;
+  return mapDepth(map, tap.slice, receiver.posL) - params.knobs[kUserOffset] <= tap.z1;
 }
 
 GNOMON_SHARED_END

@@ -11,7 +11,7 @@ GNOMON_SHARED_BEGIN
 // On a cube map, whose faces have the perspective of equations 4 to 6 along their axes. x is the
 // real depth in [-lf, -ln].
 GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  PlaneDepth plane = receiverPlaneDepth(map, tap.layer, receiver, tap.ray);
+  PlaneDepth plane = receiverPlaneDepth(map, tap.slice, receiver, tap.ray);
   float ln = map.zNear;
   float lf = map.zFar;
   float a = -(lf + ln) / (lf - ln);

@@ -15,11 +15,11 @@ GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap 
   float y = 1.0f - uv.y * 2.0f;
   float zH = 0.5f - 0.5f * (x * x + y * y);
   // d0 stands where the reflection has N, so that R has no part across the axis; d0 . N = 1 / zH.
-  vec3 ray = vec3(0.0f, 0.0f, paraboloidAxisZ(tap.layer) * sign(2.0f / zH - 1.0f));
+  vec3 ray = vec3(0.0f, 0.0f, paraboloidAxisZ(tap.slice) * sign(2.0f / zH - 1.0f));
   float approach = dot(receiver.normalL, ray);
   float distance_ = approach == 0.0f ? -1.0f : dot(receiver.normalL, receiver.posL) / approach;
   float depth = (distance_ - map.zNear) / (map.zFar - map.zNear);
-  if (!(distance_ >= 0.0f && depth >= 0.0f && depth <= 1.0f)) depth = mapDepth(map, tap.layer, receiver.posL);
+  if (!(distance_ >= 0.0f && depth >= 0.0f && depth <= 1.0f)) depth = mapDepth(map, tap.slice, receiver.posL);
   float epsilon = map.sceneScale * params.knobs[kUserK] / (map.zFar - map.zNear);
   return depth - epsilon <= tap.z1;
 }

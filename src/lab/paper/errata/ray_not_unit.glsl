@@ -15,11 +15,11 @@ GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap 
   float y = 1.0f - uv.y * 2.0f;
   float zH = 0.5f - 0.5f * (x * x + y * y);
   // Its length is 1/2 + (x^2 + y^2)/2, so a distance in units of it is not one in metres.
-  vec3 ray = vec3(x, y, paraboloidAxisZ(tap.layer) * zH);
+  vec3 ray = vec3(x, y, paraboloidAxisZ(tap.slice) * zH);
   float approach = dot(receiver.normalL, ray);
   float distance_ = approach == 0.0f ? -1.0f : dot(receiver.normalL, receiver.posL) / approach;
   float depth = (distance_ - map.zNear) / (map.zFar - map.zNear);
-  if (!(distance_ >= 0.0f && depth >= 0.0f && depth <= 1.0f)) depth = mapDepth(map, tap.layer, receiver.posL);
+  if (!(distance_ >= 0.0f && depth >= 0.0f && depth <= 1.0f)) depth = mapDepth(map, tap.slice, receiver.posL);
   float epsilon = map.sceneScale * params.knobs[kUserK] / (map.zFar - map.zNear);
   return depth - epsilon <= tap.z1;
 }

@@ -15,11 +15,11 @@ GNOMON_FN bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap 
   float y = 1.0f - uv.y * 2.0f;
   float zH = 0.5f - 0.5f * (x * x + y * y);
   vec3 reflected = vec3(2.0f * x / (zH * zH), 2.0f * y / (zH * zH), 2.0f / (zH * zH) - 1.0f);
-  vec3 ray = unitVector(vec3(reflected.x, reflected.y, paraboloidAxisZ(tap.layer) * reflected.z));
+  vec3 ray = unitVector(vec3(reflected.x, reflected.y, paraboloidAxisZ(tap.slice) * reflected.z));
   float approach = dot(receiver.normalL, ray);
   float distance_ = approach == 0.0f ? -1.0f : dot(receiver.normalL, receiver.posL) / approach;
   float depth = (distance_ - map.zNear) / (map.zFar - map.zNear);
-  if (!(distance_ >= 0.0f && depth >= 0.0f && depth <= 1.0f)) depth = mapDepth(map, tap.layer, receiver.posL);
+  if (!(distance_ >= 0.0f && depth >= 0.0f && depth <= 1.0f)) depth = mapDepth(map, tap.slice, receiver.posL);
   float epsilon = map.sceneScale * params.knobs[kUserK] / (map.zFar - map.zNear);
   return depth - epsilon <= tap.z1;
 }

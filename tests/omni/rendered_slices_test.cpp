@@ -1,4 +1,4 @@
-// What the layers hold against exact rays through the same texels.
+// What the slices hold against exact rays through the same texels.
 #include "omni/paraboloid_map.h"
 
 #include "omni_fixture.h"
@@ -9,7 +9,7 @@
 namespace gnomon {
 namespace {
 
-using test::Layers;
+using test::Slices;
 using test::TexelErrors;
 using test::World;
 
@@ -39,7 +39,7 @@ std::vector<Kind> kindsOfAllRasters() {
   return all;
 }
 
-class RenderedLayers : public gpu::GpuTest {
+class RenderedSlices : public gpu::GpuTest {
  protected:
   World open(const char* scene) { return test::openWorld(device(), findGeneratedScene(scene)->make()); }
 };
@@ -52,28 +52,28 @@ class RenderedLayers : public gpu::GpuTest {
 // area); 16 more are the transforms of both sides. In metres: divided by the slope of what is interpolated
 // along the ray. The texel's direction and the hit's place are rounded too, by a few 2^-24 of the distance
 // across the ray, which the surface's slant turns into distance.
-double rasterTolerance(const World& world, const FittedMap& fitted, int layer, glm::ivec2 texel,
+double rasterTolerance(const World& world, const FittedMap& fitted, int slice, glm::ivec2 texel,
                        const SurfaceHit& hit) {
-  const RayD here = test::rayThrough(fitted, layer, glm::dvec2(texel) + 0.5);
+  const RayD here = test::rayThrough(fitted, slice, glm::dvec2(texel) + 0.5);
   const glm::dvec3 originW(fitted.frame.originW);
   const glm::dvec3 pointL = here.origin + here.dir * hit.distance - originW;
   // 1/m of the plane n.p = n.point, along the direction (s, t, 1): affine in s and t.
   const auto inverseM = [&](glm::dvec2 place) {
-    const glm::dvec3 dir = test::rayThrough(fitted, layer, place).dir;
-    const double m = glm::dvec3(glsl::cubeFaceFromLight(layer, glm::vec3(dir))).z;
+    const glm::dvec3 dir = test::rayThrough(fitted, slice, place).dir;
+    const double m = glm::dvec3(glsl::cubeFaceFromLight(slice, glm::vec3(dir))).z;
     return glm::dot(hit.normalW, dir) / (m * glm::dot(hit.normalW, pointL));
   };
   const glm::dvec2 center = glm::dvec2(texel) + 0.5;
   const double change = std::abs(inverseM(center + glm::dvec2(1, 0)) - inverseM(center)) +
                         std::abs(inverseM(center + glm::dvec2(0, 1)) - inverseM(center));
-  const double m = glm::dvec3(glsl::cubeFaceFromLight(layer, glm::vec3(pointL))).z;
+  const double m = glm::dvec3(glsl::cubeFaceFromLight(slice, glm::vec3(pointL))).z;
   glm::dvec3 c[3];
   world.tracer->corners(hit.primitive, c);
   const double longest = std::max({glm::length(c[1] - c[0]), glm::length(c[2] - c[1]), glm::length(c[0] - c[2])});
   const double slenderness = longest * longest / glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
-  const double ofInverse = kRound * (16.0 / m + (2.0 + slenderness) * change * fitted.map.side);
+  const double ofInverse = kRound * (16.0 / m + (2.0 + slenderness) * change * fitted.map.width);
   // d distance = m^2 d(1/m) / cos(angle to the axis); the depth itself is stored to 2^-24.
-  const double slope = glsl::mapDepthSlope(fitted.map, layer, glm::vec3(pointL), glm::vec3(here.dir));
+  const double slope = glsl::mapDepthSlope(fitted.map, slice, glm::vec3(pointL), glm::vec3(here.dir));
   const double cosine = std::abs(glm::dot(hit.normalW, here.dir));
   return ofInverse * m * glm::length(pointL) + 4.0 * kRound / slope + 8.0 * kRound * glm::length(pointL) / cosine;
 }
@@ -89,23 +89,23 @@ double rayTolerance(const World& world, const FittedMap& fitted, const RayD& ray
   return kRound * (8.0 * largest / cosine + 2.0 * fitted.zFar);
 }
 
-double tolerance(const World& world, const FittedMap& fitted, int layer, glm::ivec2 texel, const SurfaceHit& hit) {
-  if (fitted.map.kind != glsl::kMapParaboloid) return rasterTolerance(world, fitted, layer, texel, hit);
-  return rayTolerance(world, fitted, test::rayThrough(fitted, layer, glm::dvec2(texel) + 0.5), hit);
+double tolerance(const World& world, const FittedMap& fitted, int slice, glm::ivec2 texel, const SurfaceHit& hit) {
+  if (fitted.map.kind != glsl::kMapParaboloid) return rasterTolerance(world, fitted, slice, texel, hit);
+  return rayTolerance(world, fitted, test::rayThrough(fitted, slice, glm::dvec2(texel) + 0.5), hit);
 }
 
-TEST_F(RenderedLayers, EveryTexelHoldsTheFirstHitOfItsRay) {
+TEST_F(RenderedSlices, EveryTexelHoldsTheFirstHitOfItsRay) {
   for (const char* scene : {"contact", "atrium", "corner", "sheets"}) {
     const World world = open(scene);
     for (const Kind& kind : kinds()) {
       const bool paraboloid = &kind.map == &paraboloidParameterization();
       const FittedMap fitted = test::fitWhole(world, kind.map, paraboloid ? 222 : 128, kind.options);
-      const Layers layers = test::drawLayers(device(), world, fitted, CullMode::None);
+      const Slices layers = test::drawSlices(device(), world, fitted, CullMode::None);
       // The rasterizer decides on a grid of 1/256 texel; a texel's own ray, to within rounding.
       const TexelErrors errors = test::compareWithRays(
           world, fitted, layers.z1,
-          {.edgeReach = paraboloid ? 1e-3 : 0.02, .tolerance = [&](int layer, glm::ivec2 texel, const SurfaceHit& hit) {
-             return tolerance(world, fitted, layer, texel, hit);
+          {.edgeReach = paraboloid ? 1e-3 : 0.02, .tolerance = [&](int slice, glm::ivec2 texel, const SurfaceHit& hit) {
+             return tolerance(world, fitted, slice, texel, hit);
            }});
       EXPECT_EQ(errors.off, 0u) << scene << ", " << kind.name << ", worst " << errors.worst << " m";
       EXPECT_LT(errors.atEdges, errors.held / (paraboloid ? 5000 : 1000)) << scene << ", " << kind.name;
@@ -114,15 +114,15 @@ TEST_F(RenderedLayers, EveryTexelHoldsTheFirstHitOfItsRay) {
   }
 }
 
-TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
+TEST_F(RenderedSlices, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
   for (const char* scene : {"contact", "sheets", "atrium"}) {
     const World world = open(scene);
     for (const Kind& kind : kindsOfAllRasters()) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 64, kind.options);
       for (const CullMode cull : {CullMode::None, CullMode::Solids}) {
-        const Layers blended = test::drawLayers(device(), world, fitted, cull, glsl::kChannelSecondDepth);
-        const Layers peeled =
-            test::drawLayers(device(), world, fitted, cull, glsl::kChannelSecondDepth, SecondLayer::Peel);
+        const Slices blended = test::drawSlices(device(), world, fitted, cull, glsl::kChannelSecondDepth);
+        const Slices peeled =
+            test::drawSlices(device(), world, fitted, cull, glsl::kChannelSecondDepth, SecondLayer::Peel);
         EXPECT_EQ(blended.z1, peeled.z1) << scene << ", " << kind.name;
         EXPECT_EQ(blended.z2, peeled.z2) << scene << ", " << kind.name;
         size_t seconds = 0;
@@ -136,8 +136,8 @@ TEST_F(RenderedLayers, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
   }
 }
 
-// What is not sent to a layer changes nothing on it (src/shadow/layer_culling.h).
-TEST_F(RenderedLayers, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
+// What is not sent to a slice changes nothing on it (src/shadow/slice_culling.h).
+TEST_F(RenderedSlices, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
   std::vector<Kind> all = kindsOfAllRasters();
   all.push_back({"paraboloid by vertex", paraboloidParameterization(), {kParaboloidRaster(ParaboloidRaster::Vertex)}});
   for (const char* scene : {"crowd:50000", "double-torus", "sheets"}) {
@@ -146,15 +146,15 @@ TEST_F(RenderedLayers, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
     for (const Kind& kind : all) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 96, kind.options);
       const auto drawAll = [&] {
-        return test::drawLayers(device(), world, fitted, CullMode::None, glsl::kChannelSecondDepth);
+        return test::drawSlices(device(), world, fitted, CullMode::None, glsl::kChannelSecondDepth);
       };
-      const Layers parts = drawAll();
+      const Slices parts = drawAll();
       std::vector<Draw> cut = world.buffers.draws;
       for (Draw& draw : world.buffers.draws) {
         draw.partCount = 0;
         draw.boundsW = {.lower = glm::vec3(-1e6f), .upper = glm::vec3(1e6f)};
       }
-      const Layers whole = drawAll();
+      const Slices whole = drawAll();
       std::swap(cut, world.buffers.draws);
       EXPECT_EQ(parts.z1, whole.z1) << scene << ", " << kind.name;
       EXPECT_EQ(parts.z2, whole.z2) << scene << ", " << kind.name;
@@ -162,16 +162,16 @@ TEST_F(RenderedLayers, LayersThatAreSentPartsEqualLayersThatAreSentEverything) {
   }
 }
 
-// Leaving the back faces of solids out changes nothing (map_image_test.cpp says why), whichever way a layer turns the
+// Leaving the back faces of solids out changes nothing (map_image_test.cpp says why), whichever way a slice turns the
 // winding.
-TEST_F(RenderedLayers, CullingSolidsChangesNoTexel) {
+TEST_F(RenderedSlices, CullingSolidsChangesNoTexel) {
   const World world = open("contact");
   ASSERT_TRUE(std::ranges::any_of(world.buffers.draws, &Draw::solid));
   for (const Kind& kind : kindsOfAllRasters()) {
     const FittedMap fitted = test::fitWhole(world, kind.map, 128, kind.options);
-    const Layers all = test::drawLayers(device(), world, fitted, CullMode::None);
-    const Layers culled = test::drawLayers(device(), world, fitted, CullMode::Solids);
-    const Layers back = test::drawLayers(device(), world, fitted, CullMode::Solids, glsl::kChannelBackDepth);
+    const Slices all = test::drawSlices(device(), world, fitted, CullMode::None);
+    const Slices culled = test::drawSlices(device(), world, fitted, CullMode::Solids);
+    const Slices back = test::drawSlices(device(), world, fitted, CullMode::Solids, glsl::kChannelBackDepth);
     size_t different = 0, behind = 0;
     for (size_t i = 0; i < all.z1.size(); ++i) {
       ASSERT_LE(all.z1[i], culled.z1[i]);

@@ -3,7 +3,7 @@
 // the parameterization.
 //
 // Every shader reads the scene's bindings, the map's uniforms at kBindMap and, as push constants, as much of the front
-// of LayerPush as it needs (shadow/drawn_slice.glsl). Specialization constants: 0 is kMasked, 1 leaves the holes of
+// of SlicePush as it needs (shadow/drawn_slice.glsl). Specialization constants: 0 is kMasked, 1 leaves the holes of
 // alpha masks open; 1 is kPass*; 2 is the map's kind (kMap*); 3 is 1 where one pass draws all slices; 4 is the
 // channels that the pass stores.
 
@@ -12,35 +12,35 @@
 namespace gnomon {
 
 // How often the triangles of a projective map are sent on their way.
-enum class LayerPasses {
+enum class SlicePasses {
   Auto,       // whichever is faster on the device, of what is right on it
-  Each,       // once a layer
-  Multiview,  // once for all layers, where the device draws them as it does one by one
+  Each,       // once a slice
+  Multiview,  // once for all slices, where the device draws them as it does one by one
 };
 
-struct LayerShaders {
-  const char* vertex = "shadow/project_to_layer.vert.glsl";
+struct SliceShaders {
+  const char* vertex = "shadow/project_to_slice.vert.glsl";
   // Ends in storeChannels (shadow/store_channels.glsl).
   const char* fragment = "shadow/draw_depth.frag.glsl";
   // Depth is the rasterizer's own: where there is nothing else to store, opaque meshes need no fragment shader.
   bool rasterizedDepth = true;
   // Empty: indexed triangles, whose corners the vertex shader projects and which the rasterizer culls by winding. Else
-  // a compute shader that writes the triangles a layer shows, each with four corners around its projection
+  // a compute shader that writes the triangles a slice shows, each with four corners around its projection
   // (shared/bounded_triangle.glsl): these are drawn by shadow/pull_bounded_triangle.vert.glsl, and the fragment shaders
   // decide each texel. Or one that writes triangles of its own for a vertex shader of its own, in the same buffer
   // (shared/straight_triangle.glsl).
   const char* bounds = "";
-  // One bit a layer that mirrors: there, what winds counter-clockwise seen from the light is clockwise on the layer.
-  uint32_t mirroredLayers = 0;
-  // The layers are clipFromLight's: what its sides do not let through need not be drawn.
+  // One bit a slice that mirrors: there, what winds counter-clockwise seen from the light is clockwise on the slice.
+  uint32_t mirroredSlices = 0;
+  // The slices are clipFromLight's: what its sides do not let through need not be drawn.
   bool projective = true;
-  LayerPasses passes = LayerPasses::Each;  // of projective layers that mirror all, or none
+  SlicePasses passes = SlicePasses::Each;  // of projective slices that mirror all, or none
 
-  bool operator==(const LayerShaders&) const = default;
+  bool operator==(const SliceShaders&) const = default;
 };
 
 // Push constants of the vertex and fragment shaders, in this order.
-struct LayerPush {
+struct SlicePush {
   int32_t slice = 0;
   // Of depth: what lies no further behind the first layer is not the second. The same triangle gets the same
   // depth in every pass, so none is needed.

@@ -1,4 +1,4 @@
-#include "shadow/layer_culling.h"
+#include "shadow/slice_culling.h"
 
 #include <algorithm>
 
@@ -11,14 +11,14 @@ constexpr float kSlack = 1e-3f;
 
 }  // namespace
 
-LayerCulling::LayerCulling(const FittedMap& fitted, int first, int count) : frame_(fitted.frame) {
-  for (int layer = first; layer < first + count; ++layer) {
+SliceCulling::SliceCulling(const FittedMap& fitted, int first, int count) : frame_(fitted.frame) {
+  for (int slice = first; slice < first + count; ++slice) {
     if (!fitted.halfSpaces.empty()) {
-      const FittedMap::HalfSpace& half = fitted.halfSpaces[static_cast<size_t>(layer)];
+      const FittedMap::HalfSpace& half = fitted.halfSpaces[static_cast<size_t>(slice)];
       hemispheres_.push_back({.axisZ = half.axisZ, .backW = frame_.backW, .beyondRim = half.beyond + kSlack});
     }
     if (!fitted.shaders.projective) continue;
-    const glm::mat4 rows = glm::transpose(fitted.map.mapLayers[layer].clipFromLight);
+    const glm::mat4 rows = glm::transpose(fitted.map.mapSlices[slice].clipFromLight);
     Projective made{.fromLight = {rows[0], rows[1], rows[3]}, .fromWorld = {}};
     for (int i = 0; i < 3; ++i)
       made.fromWorld[i] =
@@ -29,7 +29,7 @@ LayerCulling::LayerCulling(const FittedMap& fitted, int first, int count) : fram
 
 // A box lies outside one side of the clip volume where +-x - w (+-y - w) is positive in all of it; over the
 // box such a sum is what it is at the centre, give or take the half size times its gradient.
-bool LayerCulling::Projective::mayShow(const glm::vec3& centerL, const glm::vec3& halfSizeW) const {
+bool SliceCulling::Projective::mayShow(const glm::vec3& centerL, const glm::vec3& halfSizeW) const {
   float center[3], sum = 0.0f;
   for (int i = 0; i < 3; ++i) {
     center[i] = glm::dot(fromLight[i], glm::vec4(centerL, 1.0f));
@@ -46,20 +46,20 @@ bool LayerCulling::Projective::mayShow(const glm::vec3& centerL, const glm::vec3
 }
 
 // Where the most forward of the box is behind the light by more than the rim shows, all of it is.
-bool LayerCulling::Hemisphere::mayShow(const glm::vec3& centerL, const glm::vec3& halfSizeW) const {
+bool SliceCulling::Hemisphere::mayShow(const glm::vec3& centerL, const glm::vec3& halfSizeW) const {
   const float forward = axisZ * centerL.z + glm::dot(glm::abs(backW), halfSizeW);
   return forward >= -beyondRim * (glm::length(centerL) + glm::length(halfSizeW));
 }
 
-bool LayerCulling::mayShow(const Bounds& boundsW) const {
+bool SliceCulling::mayShow(const Bounds& boundsW) const {
   const glm::vec3 centerL = glsl::lightFromWorld(frame_, 0.5f * (boundsW.lower + boundsW.upper));
   const glm::vec3 halfSizeW = 0.5f * (boundsW.upper - boundsW.lower);
-  const auto shows = [&](const auto& layer) { return layer.mayShow(centerL, halfSizeW); };
+  const auto shows = [&](const auto& slice) { return slice.mayShow(centerL, halfSizeW); };
   return (projective_.empty() && hemispheres_.empty()) || std::ranges::any_of(projective_, shows) ||
          std::ranges::any_of(hemispheres_, shows);
 }
 
-std::vector<LayerCulling::Range> LayerCulling::rangesOf(const SceneBuffers& scene, const Draw& draw) const {
+std::vector<SliceCulling::Range> SliceCulling::rangesOf(const SceneBuffers& scene, const Draw& draw) const {
   if (!mayShow(draw.boundsW)) return {};
   if (draw.partCount == 0) return {{draw.firstIndex, draw.indexCount}};
   std::vector<Range> ranges;

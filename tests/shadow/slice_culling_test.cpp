@@ -1,5 +1,5 @@
-// What is not sent to a layer is not seen on it, and much is not sent.
-#include "shadow/layer_culling.h"
+// What is not sent to a slice is not seen on it, and much is not sent.
+#include "shadow/slice_culling.h"
 
 #include "seen_scene.h"
 #include "tests/gpu_fixture.h"
@@ -15,7 +15,7 @@
 namespace gnomon {
 namespace {
 
-class LayerCullingTest : public gpu::GpuTest {
+class SliceCullingTest : public gpu::GpuTest {
  protected:
   // Torus knots large and small around the origin, one turned, one mirrored, one too small to be cut.
   static Scene manyTori() {
@@ -36,7 +36,7 @@ class LayerCullingTest : public gpu::GpuTest {
   }
 };
 
-TEST_F(LayerCullingTest, NoTriangleThatALayerMayShowIsLeftOutAndMostOthersAre) {
+TEST_F(SliceCullingTest, NoTriangleThatALayerMayShowIsLeftOutAndMostOthersAre) {
   const Scene scene = manyTori();
   const SceneBuffers buffers = createSceneBuffers(device(), scene);
   size_t all = 0, needed = 0, drawn = 0, uncut = 0;
@@ -53,14 +53,14 @@ TEST_F(LayerCullingTest, NoTriangleThatALayerMayShowIsLeftOutAndMostOthersAre) {
                                     .receiversW = {},
                                     .side = 64,
                                     .camera = cameraView(lookAt("any", {9, 9, 9}, {0, 0, 0}, 1.0f), 8, 8)});
-    const LayerCulling culling(fitted, 0, 1);
+    const SliceCulling culling(fitted, 0, 1);
     for (const Draw& draw : buffers.draws) {
       const Instance& instance = scene.instances[draw.instance];
       const Mesh& mesh = scene.meshes[instance.mesh];
       const auto ranges = culling.rangesOf(buffers, draw);
       uncut += culling.mayShow(draw.boundsW) ? draw.indexCount / 3 : 0;
       uint32_t end = 0;
-      for (const LayerCulling::Range& range : ranges) {
+      for (const SliceCulling::Range& range : ranges) {
         ASSERT_GE(range.firstIndex, std::max(end, draw.firstIndex));
         ASSERT_GT(range.indexCount, 0u);
         end = range.firstIndex + range.indexCount;
@@ -72,7 +72,7 @@ TEST_F(LayerCullingTest, NoTriangleThatALayerMayShowIsLeftOutAndMostOthersAre) {
         bool outside[4] = {true, true, true, true};
         for (uint32_t corner = i; corner < i + 3; ++corner) {
           const glm::vec3 posW(instance.worldFromMesh * glm::vec4(mesh.positions[mesh.indices[corner]], 1.0f));
-          const glm::vec4 clip = glsl::transform(fitted.map.mapLayers[0].clipFromLight,
+          const glm::vec4 clip = glsl::transform(fitted.map.mapSlices[0].clipFromLight,
                                                  glm::vec4(glsl::lightFromWorld(fitted.frame, posW), 1.0f));
           outside[0] = outside[0] && clip.x > clip.w;
           outside[1] = outside[1] && -clip.x > clip.w;
@@ -83,7 +83,7 @@ TEST_F(LayerCullingTest, NoTriangleThatALayerMayShowIsLeftOutAndMostOthersAre) {
         if (outside[0] || outside[1] || outside[2] || outside[3]) continue;
         ++needed;
         const uint32_t index = draw.firstIndex + i;
-        ASSERT_TRUE(std::ranges::any_of(ranges, [&](const LayerCulling::Range& range) {
+        ASSERT_TRUE(std::ranges::any_of(ranges, [&](const SliceCulling::Range& range) {
           return index >= range.firstIndex && index < range.firstIndex + range.indexCount;
         })) << way;
       }
@@ -95,7 +95,7 @@ TEST_F(LayerCullingTest, NoTriangleThatALayerMayShowIsLeftOutAndMostOthersAre) {
             (uncut - needed) * 4 / 5);  // a torus is cut in rings, which is not the best of cuts
 }
 
-TEST_F(LayerCullingTest, PartsAreOfLargeDrawsOnlyAndEncloseThem) {
+TEST_F(SliceCullingTest, PartsAreOfLargeDrawsOnlyAndEncloseThem) {
   const Scene scene = manyTori();
   const SceneBuffers buffers = createSceneBuffers(device(), scene);
   for (const Draw& draw : buffers.draws) {

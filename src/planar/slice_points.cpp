@@ -1,4 +1,4 @@
-#include "planar/layer_points.h"
+#include "planar/slice_points.h"
 
 #include "planar/cascades.h"
 #include "planar/convex_body.h"
@@ -82,28 +82,28 @@ double leastCasterDepth(const Bounds& sceneBounds) {
   return kLeastNear * std::max(static_cast<double>(sceneBounds.diagonal()), 1e-6);
 }
 
-std::vector<std::vector<glm::dvec2>> layerPoints(const FitInput& input, const AxisFrame& frame,
+std::vector<std::vector<glm::dvec2>> slicePoints(const FitInput& input, const AxisFrame& frame,
                                                  const Bounds& sceneBounds, int cascadeCount) {
   const std::vector<Slice> slices = viewSlices(input, cascadeCount);
-  std::vector<Points> layers(slices.size());
+  std::vector<Points> result(slices.size());
   for (size_t i = 0; i < slices.size(); ++i) {
     const bool whole = input.options.get(kWindowFit) == WindowFit::None && i + 1 == slices.size();
     if (whole)
-      addWhole(layers[i], input, frame, sceneBounds);
+      addWhole(result[i], input, frame, sceneBounds);
     else if (input.options.get(kWindowFit) != WindowFit::Focused)
-      addTight(layers[i], input, frame, sceneBounds, slices[i]);
+      addTight(result[i], input, frame, sceneBounds, slices[i]);
   }
   // Receivers are in every fit: what rounds out of a body's edge is covered all the same.
   for (const glm::dvec3& receiver : input.receiversW) {
     const double depth = viewDepth(input.camera, receiver);
     const auto slice = std::ranges::find_if(slices, [&](const Slice& s) { return depth < s.farthest; });
-    layers[static_cast<size_t>(slice - slices.begin())].emplace_back(frame.planeFromWorld(receiver));
+    result[static_cast<size_t>(slice - slices.begin())].emplace_back(frame.planeFromWorld(receiver));
   }
   // One unit around the axis where there is nothing to cover at all.
-  if (layers.back().empty()) layers.back() = {glm::dvec2(-1.0), glm::dvec2(1.0)};
-  for (size_t i = layers.size() - 1; i-- > 0;)
-    if (layers[i].empty()) layers[i] = layers[i + 1];
-  return layers;
+  if (result.back().empty()) result.back() = {glm::dvec2(-1.0), glm::dvec2(1.0)};
+  for (size_t i = result.size() - 1; i-- > 0;)
+    if (result[i].empty()) result[i] = result[i + 1];
+  return result;
 }
 
 }  // namespace gnomon

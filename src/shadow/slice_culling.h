@@ -1,6 +1,6 @@
 #pragma once
-// Culling for a map's layers: whole draws, and the parts that SceneBuffers cuts large draws into. Conservative: nothing
-// that a layer shows is left out.
+// Culling for a map's slices: whole draws, and the parts that SceneBuffers cuts large draws into. Conservative: nothing
+// that a slice shows is left out.
 
 #include "scene/scene_buffers.h"
 #include "shadow/parameterization.h"
@@ -9,11 +9,11 @@
 
 namespace gnomon {
 
-class LayerCulling {
+class SliceCulling {
  public:
-  // For layers first .. first + count - 1 together: projective ones, which have four sides, or half spaces
+  // For slices first .. first + count - 1 together: projective ones, which have four sides, or half spaces
   // (FittedMap::halfSpaces). Others may show everything.
-  LayerCulling(const FittedMap& fitted, int first, int count);
+  SliceCulling(const FittedMap& fitted, int first, int count);
 
   bool mayShow(const Bounds& boundsW) const;
 

@@ -16,5 +16,5 @@ void main() {
   firstTriangle = rangeTriangle;
   uv = uvs[gl_VertexIndex];
   vec3 posW = vec3(transform(instances[gl_InstanceIndex].worldFromMesh, vec4(positions[gl_VertexIndex], 1.0f)));
-  gl_Position = transform(mapLayers[drawnSlice()].clipFromLight, vec4(lightFromWorld(lightFrame, posW), 1.0f));
+  gl_Position = transform(mapSlices[drawnSlice()].clipFromLight, vec4(lightFromWorld(lightFrame, posW), 1.0f));
 }
