@@ -22,11 +22,11 @@ void main() {
   float m = 1.0f / gl_FragCoord.w;
   DrawnFragment drawn;
   // In the face's coordinates: a distance is the same in all of them.
-  drawn.depth = cubeDepth(map, drawnSlice(), vec3(mapUv.x * 2.0f - 1.0f, mapUv.y * 2.0f - 1.0f, 1.0f) * m);
+  // What is nearer than the near end lies on it, as depth clamping has it.
+  drawn.depth =
+      max(cubeDepth(map, drawnSlice(), vec3(mapUv.x * 2.0f - 1.0f, mapUv.y * 2.0f - 1.0f, 1.0f) * m), 0.0f);
   drawn.triangle = firstTriangle + gl_PrimitiveID;
   drawn.instance = instanceIndex;
-  // As a near plane would: what is nearer than the near end is not in the map.
-  if (drawn.depth < 0.0f) discard;
   gl_FragDepth = drawn.depth;
   storeChannels(drawn);
 }

@@ -17,23 +17,23 @@ std::optional<double> parseNumber(const std::string& text) {
   return value;
 }
 
-std::optional<glm::vec3> tryVec3(const std::string& text) {
+std::optional<glm::dvec3> tryVec3(const std::string& text) {
   std::istringstream words(text);
-  glm::vec3 v(0.0f);
+  glm::dvec3 v(0.0);
   int count = 0;
   for (std::string word; std::getline(words, word, ','); ++count) {
     const std::optional<double> number = parseNumber(word);
     if (!number || count == 3) return std::nullopt;
-    v[count] = static_cast<float>(*number);
+    v[count] = *number;
   }
   if (count != 3) return std::nullopt;
   return v;
 }
 
 glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
-  const std::optional<glm::vec3> v = tryVec3(text);
+  const std::optional<glm::dvec3> v = tryVec3(text);
   if (!v) throw UsageError(fmt::format("{} {}: write three numbers, x,y,z", flag, text));
-  return *v;
+  return glm::vec3(*v);
 }
 
 std::string shellWord(const std::string& word) {

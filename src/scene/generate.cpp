@@ -64,11 +64,11 @@ const GeneratedScene* findGeneratedScene(const std::string& name) {
   return nullptr;
 }
 
-Scene openScene(const std::string& nameOrPath) {
+Scene openScene(const std::string& nameOrPath, const GltfOptions& options) {
   if (const GeneratedScene* generated = findGeneratedScene(nameOrPath)) return generated->make();
   if (std::optional<Scene> crowd = openSizedCrowd(nameOrPath)) return std::move(*crowd);
   std::error_code ignored;
-  if (std::filesystem::exists(nameOrPath, ignored)) return loadGltf(nameOrPath);
+  if (std::filesystem::exists(nameOrPath, ignored)) return loadGltf(nameOrPath, options);
   std::string names;
   for (const GeneratedScene& scene : generatedScenes()) names += (names.empty() ? "" : ", ") + std::string(scene.name);
   throw fileError(nameOrPath, "is neither a file nor the name of a generated scene",

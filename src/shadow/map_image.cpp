@@ -149,6 +149,7 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
     desc.depthWrite = false;
     desc.minBlend = true;
   }
+  desc.depthClamp = true;  // a caster before the near end still casts a shadow
   programs_.push_back(std::make_unique<Entry>(Entry{key, gpu::GraphicsProgram(device_, desc)}));
   return programs_.back()->program;
 }

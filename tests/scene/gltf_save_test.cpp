@@ -143,7 +143,7 @@ TEST(RoundTripOfFiles, awkwardSceneLoadsAgainEqual) {
   for (const glm::vec3& direction : directions) {
     for (LightType type : {LightType::Point, LightType::Spot, LightType::Directional}) {
       Light light;
-      light.name = "light";
+      light.name = "light " + std::to_string(scene.lights.size());
       light.type = type;
       if (type != LightType::Point) light.directionW = direction;
       if (type != LightType::Directional) light.positionW = glm::vec3(0.1f, 1e-20f, -12345.678f);

@@ -2,6 +2,7 @@
 // Resolves the command line's --light, --camera, --size and so on to a scene, a light, a camera and a picture size.
 
 #include "base/parse.h"
+#include "scene/gltf.h"
 #include "shadow/parameterization.h"
 #include "truth/tracer.h"
 
@@ -12,12 +13,14 @@
 namespace gnomon {
 
 struct SetupOptions {
-  std::string scene;      // a glTF file or a generated scene's name
-  std::string light;      // NAME or x,y,z; empty: the first light the map can take, else one above the scene's centre
-  std::string camera;     // NAME or eye:x,y,z,target:x,y,z[,fov:deg]; empty: the first, else one that sees the scene
+  std::string scene;   // a glTF file or a generated scene's name
+  std::string light;   // NAME, #N, NAME@x,y,z or x,y,z; empty: the first the map can take, else one above the centre
+  std::string camera;  // NAME, #N or eye:x,y,z,target:x,y,z[,fov:deg]; empty: the first, else one that sees the scene
   std::string direction;  // x,y,z: the way the light shines; empty: the light's own, else where the camera looks
   std::optional<double> coneDegrees;  // full angle of a spot
+  std::optional<double> intensity;    // candela or lux, in place of the light's own
   std::string size = "1024";          // N or WxH, pixels
+  GltfOptions gltf;                   // which files a scene may read
 };
 
 // The words of a command line that choose the same: the scene, and flags for what is not at its default.
