@@ -27,6 +27,8 @@ void main() {
       max(cubeDepth(map, drawnSlice(), vec3(mapUv.x * 2.0f - 1.0f, mapUv.y * 2.0f - 1.0f, 1.0f) * m), 0.0f);
   drawn.triangle = firstTriangle + gl_PrimitiveID;
   drawn.instance = instanceIndex;
+  // Of a plane through the light itself, coordinates' rounding (2^-24 of the scene) says where it is met.
+  if (!(m > map.sceneScale * 2.4e-7f)) discard;
   gl_FragDepth = drawn.depth;
   storeChannels(drawn);
 }

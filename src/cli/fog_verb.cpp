@@ -118,20 +118,20 @@ bool isPicture(const std::string& out) {
   return extension == ".exr" || extension == ".png";
 }
 
-std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags) {
+std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags, const glm::dvec3& originW) {
   if (flags.density.empty()) {
     if (!flags.densityAt.empty() || flags.densityScale)
       throw UsageError("--density-at and --density-scale need a --density");
     return nullptr;
   }
-  DensityPlacement placement{.scale = flags.densityScale.value_or(1.0)};
+  DensityPlacement placement{.scale = flags.densityScale.value_or(1.0), .originW = originW};
   if (!(placement.scale >= 1e-6 && placement.scale <= 1e6))
     throw UsageError(fmt::format("--density-scale {}: give a scale factor, 1e-6..1e6", placement.scale));
   if (!flags.densityAt.empty()) placement.centerW = glm::dvec3(parseVec3("--density-at", flags.densityAt));
   return std::make_shared<const DensityGrid>(flags.density, placement);
 }
 
-FogMedium fogMedium(const FogFlags& flags) {
+FogMedium fogMedium(const FogFlags& flags, const glm::dvec3& originW) {
   FogMedium medium{.sigmaA = parseSpectrum("--sigma-a", flags.sigmaA), .reach = flags.reach};
   if (!flags.sigmaS.empty()) medium.sigmaS = parseSpectrum("--sigma-s", flags.sigmaS);
   if (!(std::abs(flags.g) < 1.0)) throw UsageError(fmt::format("--g {}: must be between -1 and 1", flags.g));
@@ -141,7 +141,7 @@ FogMedium fogMedium(const FogFlags& flags) {
   if (!(flags.ambient >= 0.0 && flags.ambient < 1e9))
     throw UsageError(fmt::format("--ambient {}: give cd/m^2, 0 or more and less than 1e9", flags.ambient));
   medium.ambient = static_cast<float>(flags.ambient);
-  medium.density = densityOf(flags);
+  medium.density = densityOf(flags, originW);
   return medium;
 }
 
@@ -161,7 +161,7 @@ std::string integratorsHelp() {
   return help;
 }
 
-FogOptions fogOptions(const FogFlags& flags) {
+FogOptions fogOptions(const FogFlags& flags, const glm::dvec3& originW) {
   const bool folder = !flags.out.empty() && !isPicture(flags.out);
   // A picture alone needs one way to integrate; whoever asks for numbers wants all.
   const bool compares = folder || flags.truth || !flags.json.empty() || flags.out.empty();
@@ -171,7 +171,7 @@ FogOptions fogOptions(const FogFlags& flags) {
                      .map = flags.map.options,
                      .mapSide = flags.map.mapSize,
                      .cull = parseCullMode(flags.map.cull),
-                     .medium = fogMedium(flags),
+                     .medium = fogMedium(flags, originW),
                      .truth = flags.truth,
                      .cache = !flags.noCache,
                      .repeats = flags.repeats};
@@ -196,8 +196,8 @@ void writePicture(const std::filesystem::path& path, const FogResult& result, co
 }
 
 int runFogVerb(const FogFlags& flags) {
-  const FogOptions options = fogOptions(flags);
   const Session session = openSession(flags.scene);
+  const FogOptions options = fogOptions(flags, session.scene().originW);
   const FogResult result = runFog(session, options);
   const std::string json = fogJson(session, options, result, commandLine());
   if (!options.outDir.empty()) {

@@ -35,16 +35,20 @@ const char* castsAs(const Scene& scene, const Mesh& mesh) {
   return "open (one-sided, but not closed: never culled)";
 }
 
-std::string lightText(const Light& light) {
-  const auto text = [](const glm::vec3& v) { return fmt::format("{:.4g},{:.4g},{:.4g}", v.x, v.y, v.z); };
+std::string placeText(const glm::dvec3& v) {
+  return fmt::format("{:.4g},{:.4g},{:.4g}", v.x, v.y, v.z);
+}
+
+std::string lightText(const Light& light, const glm::dvec3& originW) {
+  const std::string place = placeText(glm::dvec3(light.positionW) + originW), towards = placeText(glm::dvec3(light.directionW));
   switch (light.type) {
     case LightType::Point:
-      return fmt::format("point at {}, {:g} cd", text(light.positionW), light.intensity);
+      return fmt::format("point at {}, {:g} cd", place, light.intensity);
     case LightType::Spot:
-      return fmt::format("spot at {} towards {}, cone {:.4g} degrees, {:g} cd", text(light.positionW),
-                         text(light.directionW), 2.0f * glm::degrees(light.outerConeRad), light.intensity);
+      return fmt::format("spot at {} towards {}, cone {:.4g} degrees, {:g} cd", place, towards,
+                         2.0f * glm::degrees(light.outerConeRad), light.intensity);
     case LightType::Directional:
-      return fmt::format("directional towards {}, {:g} lx", text(light.directionW), light.intensity);
+      return fmt::format("directional towards {}, {:g} lx", towards, light.intensity);
   }
   return "";
 }
@@ -54,19 +58,20 @@ void printScene(const std::string& name) {
   const Bounds bounds = computeBounds(scene);
   fmt::print("{}: {} triangles, {} meshes, {} instances, {} materials, {} textures\n", scene.name, triangleCount(scene),
              scene.meshes.size(), scene.instances.size(), scene.materials.size(), scene.textures.size());
-  fmt::print("bounds {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g} m, diagonal {:.4g} m\n", bounds.lower.x,
-             bounds.lower.y, bounds.lower.z, bounds.upper.x, bounds.upper.y, bounds.upper.z, bounds.diagonal());
+  fmt::print("bounds {} to {} m, diagonal {:.4g} m\n", placeText(glm::dvec3(bounds.lower) + scene.originW),
+             placeText(glm::dvec3(bounds.upper) + scene.originW), bounds.diagonal());
   for (const Mesh& mesh : scene.meshes) {
     const Material& material = scene.materials[mesh.material];
     fmt::print("mesh '{}': {} triangles, {}{}\n", mesh.name, mesh.indices.size() / 3, castsAs(scene, mesh),
                material.alphaMode == AlphaMode::Mask ? ", alpha mask" : "");
   }
-  for (const Light& light : scene.lights) fmt::print("light '{}': {}\n", light.name, lightText(light));
+  for (const Light& light : scene.lights) fmt::print("light '{}': {}\n", light.name, lightText(light, scene.originW));
   for (const Camera& camera : scene.cameras) {
-    const glm::vec4& eye = camera.worldFromEye[3];
-    fmt::print("camera '{}': at {:.4g},{:.4g},{:.4g}, fov {:.4g} degrees\n", camera.name, eye.x, eye.y, eye.z,
-               glm::degrees(camera.yFovRad));
+    fmt::print("camera '{}': at {}, fov {:.4g} degrees\n", camera.name,
+               placeText(glm::dvec3(glm::vec3(camera.worldFromEye[3])) + scene.originW), glm::degrees(camera.yFovRad));
   }
+  for (const std::string& note : scene.notes) fmt::print("note: {}\n", note);
+  for (const std::string& note : scene.harmlessNotes) fmt::print("note: {}\n", note);
 }
 
 Run addInfo(CLI::App* verb) {

@@ -124,7 +124,7 @@ DensityGrid::DensityGrid(const std::string& fileAndGrid, const DensityPlacement&
     throw fileError(named.path, fmt::format("its grid '{}' has voxels of zero volume", gridName_),
                     "repair its transform");
   impl_->indexFromWorld = glm::inverse(impl_->worldFromIndex);
-  impl_->centerW = placement.centerW.value_or(fileFromIndex(impl_->centerI));
+  impl_->centerW = placement.centerW.value_or(fileFromIndex(impl_->centerI)) - placement.originW;
   place_ = {.centerW = glm::vec3(impl_->centerW),
             .centerI = glm::vec3(impl_->centerI),
             .indexFromWorld = glm::mat3(impl_->indexFromWorld),

@@ -214,6 +214,11 @@ std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& trace
   return lights;
 }
 
+std::vector<Light> lightsAsked(const SetupOptions& options, const Tracer& tracer) {
+  if (options.light.empty() || options.light == "all") return tracer.scene().lights;
+  return {findLight(tracer.scene(), options.light)};
+}
+
 Camera chooseCamera(const SetupOptions& options, const Tracer& tracer) {
   const Scene& scene = tracer.scene();
   if (options.camera.empty()) {

@@ -42,6 +42,9 @@ Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Param
 // it can make do with). At least one.
 std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& tracer, const Parameterization& map);
 
+// The lights that the command line asks for, whatever the map: the one it names, else the scene's.
+std::vector<Light> lightsAsked(const SetupOptions& options, const Tracer& tracer);
+
 // Throws UsageError (malformed) or WorldError (none of that name: lists those there are).
 Camera chooseCamera(const SetupOptions& options, const Tracer& tracer);
 

@@ -23,13 +23,18 @@ struct SceneFacts {
   std::string name, source;
   size_t triangles = 0;
   float sceneScale = 0.0f;
+  glm::vec3 origin{0.0f};
 
   static constexpr auto fields() {
     return std::tuple(
         field("name", &SceneFacts::name, {.says = "name of the scene"}),
         field("source", &SceneFacts::source, {.says = "file or generator", .absent = Absent::Earlier}),
         field("triangles", &SceneFacts::triangles, {.says = "number of triangles"}),
-        field("sceneScale", &SceneFacts::sceneScale, {.unit = "metres", .says = "diagonal of the bounding box"}));
+        field("sceneScale", &SceneFacts::sceneScale, {.unit = "metres", .says = "diagonal of the bounding box"}),
+        field("origin", &SceneFacts::origin,
+              {.unit = "metres",
+               .says = "what the positions in this file are relative to, in the scene file's coordinates",
+               .absent = Absent::Earlier}));
   }
 };
 
