@@ -18,7 +18,7 @@ void writePng(const std::filesystem::path& path, const Image8& image) {
 }
 
 void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames) {
-  imageCodec().writeExr(path, image, channelNames);
+  writeTextFile(path, imageCodec().encodeExr(image, channelNames));
 }
 
 ImageF readImage(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image_png.h"
+#include "tests/base/file_limit.h"
 #include "tests/base/temporary_folder.h"
 
 #include <cmath>
@@ -48,6 +49,17 @@ TEST_F(ImageTest, PngKeepsEveryByteAndTheSameImageGivesTheSameFile) {
   const Image8 back = decodeImage(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), "a.png");
   for (int i = 0; i < 256; ++i)
     for (int c = 0; c < 3; ++c) EXPECT_EQ(back.values[4 * i + c], image.values[3 * i + c]);
+}
+
+TEST_F(ImageTest, AFullDiskLeavesTheOldPictureWhereverItIsFull) {
+  Image8 image(64, 64, 3);
+  ImageF data(64, 64, 2);
+  for (size_t i = 0; i < image.values.size(); ++i) image.values[i] = static_cast<uint8_t>(i * i / 7);
+  for (size_t i = 0; i < data.values.size(); ++i) data.values[i] = std::sin(static_cast<float>(i));
+  test::expectWholeOrOld<WorldError>(folder_ / "png" / "a.png", [&] { writePng(folder_ / "png" / "a.png", image); });
+  test::expectWholeOrOld<WorldError>(folder_ / "exr" / "a.exr", [&] {
+    writeExr(folder_ / "exr" / "a.exr", data, {"Y", "Z"});
+  });
 }
 
 // The standard's sums are part of what is checked: a decoder refuses a stream whose sum is wrong.
