@@ -3,6 +3,8 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/message.h"
+#include "base/terminal.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/results/schema.h"
@@ -11,6 +13,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -38,32 +41,37 @@ int parseAndRun(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::fprintf(stderr, "gnomon: %s (see gnomon --help)\n", error.what());
-    return 2;
+    if (error.get_exit_code() != 0) throw UsageError(fmt::format("{} (see gnomon --help)", error.what()));
+    std::ostringstream help;  // --help, --version
+    app.exit(error, help, help);
+    say(help.str());
+    return 0;
   }
   const auto given = std::ranges::find_if(runs, [](const auto& run) { return run.first->parsed(); });
   GNOMON_CHECK(given != runs.end());  // require_subcommand saw to it
   return given->second();
 }
 
+// Whatever a library or a file put into a message: one line.
+int complain(const char* message, int exitCode) {
+  std::fprintf(stderr, "gnomon: %s\n", oneLine(message).c_str());
+  return exitCode;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  guardStandardStreams();
   setCommandLine(argc, argv);
   try {
-    return parseAndRun(argc, argv);
+    const int exitCode = parseAndRun(argc, argv);
+    finishStandardOutput();
+    return exitCode;
   } catch (const UsageError& error) {
-    std::fprintf(stderr, "gnomon: %s\n", error.what());
-    return 2;
-  } catch (const WorldError& error) {
-    std::fprintf(stderr, "gnomon: %s\n", error.what());
-    return 1;
+    return complain(error.what(), 2);
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "gnomon: out of memory; take a smaller --size or --map-size, or a smaller scene\n");
-    return 1;
+    return complain("out of memory; take a smaller --size or --map-size, or a smaller scene", 1);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "gnomon: %s\n", error.what());
-    return 1;
+    return complain(error.what(), 1);
   }
 }
