@@ -26,6 +26,7 @@ ImageF readImage(const std::filesystem::path& path) {
 }
 
 Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what) {
+  if (isPng(bytes, size)) return decodePng(bytes, size, what);
   return imageCodec().decodeImage(bytes, size, what);
 }
 
