@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/message.h"
+#include "base/parse_json.h"
 #include "scene/gltf_check.h"
 
 #include <bit>
@@ -23,7 +25,6 @@ using nlohmann::json;
 
 constexpr const char* kRemedy = "export the file again, or check it with the Khronos glTF Validator";
 constexpr uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;
-constexpr int kMaxJsonDepth = 64;
 
 // What a file may unfold to: a byte index into a shared strip grows to 108 bytes of flat-shaded triangle; the
 // rest is for accessors that several primitives share.
@@ -66,14 +67,11 @@ Chunks splitGlb(std::string_view bytes, const std::string& name) {
   return chunks;
 }
 
-json parseJson(std::string_view text, const std::string& name) {
-  const auto limitDepth = [&](int depth, json::parse_event_t, json&) {
-    if (depth > kMaxJsonDepth)
-      throw fileError(name, fmt::format("the JSON is nested more than {} deep", kMaxJsonDepth), kRemedy);
-    return true;
-  };
+json parseGltfJson(std::string_view text, const std::string& name) {
   try {
-    return json::parse(text.begin(), text.end(), limitDepth);
+    return parseJson<json>(text, {});
+  } catch (const WorldError& error) {
+    throw fileError(name, error.what(), kRemedy);
   } catch (const json::exception& error) {
     throw fileError(name, "is not valid JSON: " + oneLine(error.what()), kRemedy);
   }
@@ -185,21 +183,12 @@ std::string percentDecoded(const std::string& uri) {
 
 }  // namespace
 
-std::string oneLine(std::string_view text) {
-  constexpr size_t kLongest = 240;
-  std::string line;
-  for (char c : text.substr(0, text.find('\n'))) line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  if (line.size() > kLongest) line = line.substr(0, kLongest) + "...";
-  while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
-  return line;
-}
-
 GltfDocument::GltfDocument(std::string_view bytes, std::string name, fs::path folder)
     : name_(std::move(name)), folder_(std::move(folder)), model_(std::make_unique<tinygltf::Model>()) {
   if (bytes.empty()) refuse("is empty", "name a .gltf or .glb file");
   const bool isBinary = bytes.size() >= 4 && wordAt(bytes, 0) == kGlbMagic;
   const Chunks chunks = isBinary ? splitGlb(bytes, name_) : Chunks{bytes, std::nullopt};
-  json document = parseJson(chunks.json, name_);
+  json document = parseGltfJson(chunks.json, name_);
   checkGltfJson(document, name_, chunks.binary.has_value());
   checkBufferUris(document, name_);
   images_ = takeImages(document);

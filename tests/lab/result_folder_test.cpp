@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -18,9 +17,7 @@ class ResultFolderTest : public ::testing::Test {
  protected:
   static void write(const ResultFolder& folder, const std::string& text, const std::vector<std::string>& pictures) {
     for (const std::string& picture : pictures) writeTextFile(folder.aside() / picture, text + picture);
-    const NamedTexts files = folder.files();
-    nlohmann::json json = {{"run", text}, {"files", nlohmann::json::object()}};
-    for (const auto& [path, sum] : files) json["files"][path] = sum;
+    const nlohmann::json json = {{"run", text}, {"files", folder.files()}};
     writeTextFile(folder.aside() / "results.json", json.dump());
     writeTextFile(folder.aside() / "report.html", text);
   }
@@ -94,9 +91,8 @@ TEST_F(ResultFolderTest, AListOfFilesElsewhereRemovesNothingThere) {
   writeTextFile(temporary_.path() / "outside", outside);
   publish("a", {"1.png"});
   writeTextFile(path_ / "own.png", "mine");
-  const uint32_t sumOfPrecious = 0x4f3d1c2bu;  // any
-  writeTextFile(path_ / "results.json",
-                fmt::format(R"({{"files": {{"../outside": "{:08x}", "own.png": "00000000"}}}})", sumOfPrecious));
+  // The first has the right checksum, and lies elsewhere; the second has another.
+  writeTextFile(path_ / "results.json", R"({"files": ["aacf852e ../outside", "00000000 own.png", "short"]})");
   publish("b", {"1.png"});
   EXPECT_EQ(readFile(temporary_.path() / "outside"), outside);
   EXPECT_EQ(readFile(path_ / "own.png"), "mine");
@@ -105,8 +101,7 @@ TEST_F(ResultFolderTest, AListOfFilesElsewhereRemovesNothingThere) {
 TEST_F(ResultFolderTest, AFileOfAnotherRunIsFound) {
   publish("a", {"1.png", "2.png"});
   const auto json = nlohmann::json::parse(readFile(path_ / "results.json"));
-  NamedTexts files;
-  for (const auto& [path, sum] : json.at("files").items()) files.emplace_back(path, sum);
+  const auto files = json.at("files").get<FileSums>();
   checkFiles(path_, files);
   fs::remove(path_ / "1.png");
   checkFiles(path_, files);  // a page says itself what is missing

@@ -57,7 +57,7 @@ struct ResultsHead {
   SceneFacts scene;
   CameraFacts camera;
   double gbufferMs = 0.0;
-  NamedTexts files;
+  FileSums files;
 
   static constexpr auto fields() {
     return std::tuple(field("schema", &ResultsHead::schema, {.says = "version of this format"}),

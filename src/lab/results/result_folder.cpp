@@ -1,6 +1,8 @@
 #include "lab/results/result_folder.h"
 
 #include "base/error.h"
+#include "base/parse_json.h"
+#include "lab/results/results_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -9,9 +11,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <set>
+#include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace gnomon {
 
@@ -33,24 +36,26 @@ Descriptor held(const fs::path& folder) {
   return lock;
 }
 
-bool staysWithin(const fs::path& path) {
-  return !path.empty() && path.is_relative() && *path.lexically_normal().begin() != "..";
+constexpr size_t kSumDigits = 8;
+
+// Of a line of FileSums; empty where it leads out of the folder, or is no such line.
+fs::path pathOf(const std::string& line) {
+  if (line.size() < kSumDigits + 2 || line[kSumDigits] != ' ') return {};
+  const fs::path path = line.substr(kSumDigits + 1);
+  return path.is_relative() && *path.lexically_normal().begin() != ".." ? path : fs::path();
 }
 
-// Those that a results file lists, nothing where it cannot be read: it is about to be replaced.
-NamedTexts listedIn(const fs::path& index) {
-  NamedTexts listed;
+std::string sumOf(const std::string& line) {
+  return line.substr(0, kSumDigits);
+}
+
+// What a results file lists, nothing where it cannot be read: it is about to be replaced.
+FileSums listedIn(const fs::path& index) {
   try {
-    constexpr uint64_t kMostBytes = 64 << 20;
-    const auto json = nlohmann::json::parse(readFile(index, kMostBytes), [](int depth, auto, auto&) {
-      if (depth > 64) throw WorldError("nested too deep");
-      return true;
-    });
-    for (const auto& [path, sum] : json.at("files").items()) listed.emplace_back(path, sum.get<std::string>());
+    return parseJson<nlohmann::json>(readFile(index, kMostResultsBytes), {}).at("files").get<FileSums>();
   } catch (const std::exception&) {
-    listed.clear();
+    return {};
   }
-  return listed;
 }
 
 }  // namespace
@@ -74,23 +79,26 @@ ResultFolder::~ResultFolder() {
   if (isNew_) fs::remove(folder_, failure);  // where it is empty
 }
 
-NamedTexts ResultFolder::files() const {
-  NamedTexts files;
+FileSums ResultFolder::files() const {
+  FileSums files;
   if (aside_.empty()) return files;
+  std::vector<std::string> paths;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(aside_))
-    if (entry.is_regular_file())
-      files.emplace_back(entry.path().lexically_relative(aside_).generic_string(), checksum(entry.path()));
-  std::ranges::sort(files);
+    if (entry.is_regular_file()) paths.push_back(entry.path().lexically_relative(aside_).generic_string());
+  std::ranges::sort(paths);
+  for (const std::string& path : paths) files.push_back(checksum(aside_ / path) + " " + path);
   return files;
 }
 
 // By their checksums, so that none goes that somebody else has put there.
-void ResultFolder::removeOldFiles(const NamedTexts& old, const NamedTexts& written) const {
+void ResultFolder::removeOldFiles(const FileSums& old, const FileSums& written) const {
   std::error_code failure;
-  for (const auto& [path, sum] : old) {
-    const bool isWritten = std::ranges::any_of(written, [&](const auto& file) { return file.first == path; });
-    if (isWritten || !staysWithin(path) || !fs::is_regular_file(folder_ / path, failure)) continue;
-    if (checksum(folder_ / path) == sum) fs::remove(folder_ / path, failure);
+  std::set<fs::path> kept;
+  for (const std::string& line : written) kept.insert(pathOf(line));
+  for (const std::string& line : old) {
+    const fs::path path = pathOf(line);
+    if (path.empty() || kept.contains(path) || !fs::is_regular_file(folder_ / path, failure)) continue;
+    if (checksum(folder_ / path) == sumOf(line)) fs::remove(folder_ / path, failure);
     const fs::path parent = (folder_ / path).parent_path();
     if (parent != folder_ && fs::is_empty(parent, failure)) fs::remove(parent, failure);
   }
@@ -99,10 +107,11 @@ void ResultFolder::removeOldFiles(const NamedTexts& old, const NamedTexts& writt
 void ResultFolder::publish() {
   if (aside_.empty()) return;
   try {
-    const NamedTexts old = listedIn(index_), written = files();
+    const FileSums old = listedIn(index_), written = files();
     fs::remove(index_);
     removeOldFiles(old, written);
-    for (const auto& [path, sum] : written) {
+    for (const std::string& line : written) {
+      const fs::path path = pathOf(line);
       if (folder_ / path == index_) continue;
       fs::create_directories((folder_ / path).parent_path());
       fs::rename(aside_ / path, folder_ / path);
@@ -115,12 +124,14 @@ void ResultFolder::publish() {
   isNew_ = false;
 }
 
-void checkFiles(const fs::path& folder, const NamedTexts& files) {
+void checkFiles(const fs::path& folder, const FileSums& files) {
   std::error_code failure;
-  for (const auto& [path, sum] : files) {
-    if (!staysWithin(path) || !fs::is_regular_file(folder / path, failure) || checksum(folder / path) == sum) continue;
-    throw fileError((folder / path).string(), "is not the one that results.json lists",
-                    "it is of another run; make both again with gnomon compare -o or gnomon fog -o");
+  for (const std::string& line : files) {
+    const fs::path path = pathOf(line);
+    if (path.empty() || !fs::is_regular_file(folder / path, failure)) continue;
+    if (checksum(folder / path) != sumOf(line))
+      throw fileError((folder / path).string(), "is not the one that results.json lists",
+                      "it is of another run; make both again with gnomon compare -o or gnomon fog -o");
   }
 }
 

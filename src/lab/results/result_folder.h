@@ -21,13 +21,13 @@ class ResultFolder {
 
   // Where to write meanwhile; what is written below has its final place below the folder.
   const std::filesystem::path& aside() const { return aside_; }
-  // Of all files written so far: path and checksum, in the order of paths.
-  NamedTexts files() const;
+  // Of all files written so far, in the order of paths.
+  FileSums files() const;
   // What earlier runs left of files that their results file lists, and this run did not write again, is removed.
   void publish();
 
  private:
-  void removeOldFiles(const NamedTexts& old, const NamedTexts& written) const;
+  void removeOldFiles(const FileSums& old, const FileSums& written) const;
 
   std::filesystem::path folder_, aside_, index_;
   bool isNew_ = false;  // the folder
@@ -35,6 +35,6 @@ class ResultFolder {
 };
 
 // Throws WorldError where a file is there, but has another checksum: it belongs to the results of another run.
-void checkFiles(const std::filesystem::path& folder, const NamedTexts& files);
+void checkFiles(const std::filesystem::path& folder, const FileSums& files);
 
 }  // namespace gnomon
