@@ -36,6 +36,19 @@ glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
   return *v;
 }
 
+void checkPlace(const std::string& flag, const glm::vec3& place) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(static_cast<double>(place[axis])) <= kFarthestPlace))
+      throw UsageError(fmt::format("{} {},{},{}: is too far for floats; give at most {:g} metres on each axis", flag,
+                                   place.x, place.y, place.z, kFarthestPlace));
+}
+
+glm::vec3 parsePlace(const std::string& flag, const std::string& text) {
+  const glm::vec3 place = parseVec3(flag, text);
+  checkPlace(flag, place);
+  return place;
+}
+
 std::string shellWord(const std::string& word) {
   const bool plain = !word.empty() && word.find_first_not_of(
                                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"

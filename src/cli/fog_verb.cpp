@@ -129,7 +129,7 @@ std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags) {
   DensityPlacement placement{.scale = flags.densityScale.value_or(1.0)};
   if (!(placement.scale >= 1e-6 && placement.scale <= 1e6))
     throw UsageError(fmt::format("--density-scale {}: give a scale factor, 1e-6..1e6", placement.scale));
-  if (!flags.densityAt.empty()) placement.centerW = glm::dvec3(parseVec3("--density-at", flags.densityAt));
+  if (!flags.densityAt.empty()) placement.centerW = glm::dvec3(parsePlace("--density-at", flags.densityAt));
   return std::make_shared<const DensityGrid>(flags.density, placement);
 }
 

@@ -75,6 +75,7 @@ Light findLight(const Scene& scene, const std::string& text) {
   if (!position)
     throw WorldError(fmt::format("--light {}: the scene has no light of this name; it has {}; or write x,y,z", text,
                                  namesOf(scene.lights)));
+  checkPlace("--light", *position);
   Light light;
   light.name = text;
   light.positionW = *position;
@@ -91,9 +92,9 @@ Camera parseCamera(const std::string& text) {
   const auto take = [&] {
     if (key.empty()) return;
     if (key == "eye")
-      eye = parseVec3("--camera eye", value);
+      eye = parsePlace("--camera eye", value);
     else if (key == "target")
-      target = parseVec3("--camera target", value);
+      target = parsePlace("--camera target", value);
     else if (key == "fov" && parseNumber(value))
       fov = *parseNumber(value);
     else
@@ -157,8 +158,8 @@ Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Param
   Light light = options.light.empty() ? defaultLight(tracer, map) : findLight(scene, options.light);
   if (!options.direction.empty()) {
     const glm::vec3 direction = parseVec3("--direction", options.direction);
-    if (glm::length(direction) == 0.0f) throw UsageError("--direction 0,0,0 has no direction; write x,y,z");
-    light.directionW = glm::normalize(direction);
+    if (direction == glm::vec3(0.0f)) throw UsageError("--direction 0,0,0 has no direction; write x,y,z");
+    light.directionW = glm::vec3(glm::normalize(glm::dvec3(direction)));  // of any length
     if (light.type == LightType::Point) light.type = LightType::Spot;
   }
   if (options.coneDegrees) {
