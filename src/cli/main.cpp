@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/message.h"
 #include "base/terminal.h"
+#include "cli/memory_limit.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/results/schema.h"
@@ -14,6 +15,7 @@
 #include <exception>
 #include <new>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,7 +25,17 @@ namespace {
 
 using namespace gnomon;
 
+// No flag takes an empty value: a script's variable was not set.
+void refuseEmptyWords(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word.empty()) throw UsageError(fmt::format("the word after '{}' is empty; give a value", argv[i - 1]));
+    if (word.starts_with("--") && word.ends_with('=')) throw UsageError(fmt::format("{} is empty; give a value", word));
+  }
+}
+
 int parseAndRun(int argc, char** argv) {
+  refuseEmptyWords(argc, argv);
   CLI::App app("Gnomon measures shadow-map bias for point, spot and directional lights", "gnomon");
   app.set_version_flag("--version", gnomonVersion());
   app.require_subcommand(1);
@@ -58,11 +70,7 @@ int complain(const char* message, int exitCode) {
   return exitCode;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  guardStandardStreams();
-  setCommandLine(argc, argv);
+int runAndComplain(int argc, char** argv) {
   try {
     const int exitCode = parseAndRun(argc, argv);
     finishStandardOutput();
@@ -74,4 +82,13 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return complain(error.what(), 1);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  guardStandardStreams();
+  setCommandLine(argc, argv);
+  const auto work = [&] { return runAndComplain(argc, argv); };
+  return isMemoryLimited() ? runWithinMemoryLimit(work) : work();
 }

@@ -4,6 +4,8 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
+#include <fmt/format.h>
+
 namespace gnomon {
 namespace {
 
@@ -157,6 +159,41 @@ TEST_F(CliTest, ASecondRunInAFolderIsRefusedAndAFailedOneLeavesNoFolder) {
   expectMistake("compare contact --size 16 -o @/out", 1, "out: another gnomon is writing there");
   expectMistake("compare none.glb -o @/new", 1, "none.glb");
   EXPECT_EQ(fileCount(), 1u);
+}
+
+#if !defined(GNOMON_SANITIZED)  // sanitizers take terabytes of addresses
+TEST_F(CliTest, ALimitOnMemoryIsOneLineAboutMemory) {
+  for (const int mebibytes : {250, 400, 600, 700, 800}) {
+    const std::string line = fmt::format(
+        "ulimit -v {}; {} compare contact --maps spot --biases none --size 64 --map-size 64 --repeats 1 -o {} "
+        ">/dev/null 2>{}",
+        mebibytes << 10, GNOMON_PROGRAM, (folder_ / "out").string(), (folder_ / "err").string());
+    EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 1) << mebibytes;
+    const std::string error = readFile(folder_ / "err");
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+    EXPECT_NE(error.find("memory"), std::string::npos) << error;
+    EXPECT_EQ(error.find("install"), std::string::npos) << error;
+  }
+}
+#endif
+
+TEST_F(CliTest, AnEmptyValueIsWrongUsage) {
+  for (const char* line :
+       {"compare contact --json ''", "compare contact -o ''", "compare contact --light=", "render '' -o @/a.png",
+        "fog grate --density '' -o @/a.png", "render contact --shader-dir '' -o @/a.png"})
+    expectMistake(line, 2, "empty");
+  EXPECT_EQ(fileCount(), 0u);
+}
+
+TEST_F(CliTest, PathsThatAreNoUtf8Work) {
+  const std::string odd = (folder_ / "odd\xff\xc3(name").string();
+  EXPECT_EQ(run("scene corner -o '" + odd + ".glb'").exitCode, 0);
+  const Result compared = run("compare '" + odd + ".glb' --biases none --size 24 --map-size 24 --repeats 1 -o '" + odd +
+                              "' --json @/a.json");
+  EXPECT_EQ(compared.exitCode, 0) << compared.err;
+  EXPECT_NE(readFile(folder_ / "a.json").find("odd"), std::string::npos);
+  EXPECT_EQ(run("report '" + odd + "' -o '" + odd + ".html'").exitCode, 0);
+  expectMistake("info '" + odd + "none.glb'", 1, "odd\\xff\\xc3(name");
 }
 
 TEST_F(CliTest, VsvSaysWhatIsWrong) {
