@@ -36,6 +36,20 @@ glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
   return glm::vec3(*v);
 }
 
+void checkPlace(const std::string& flag, const glm::dvec3& place) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(place[axis]) <= kFarthestPlace))
+      throw UsageError(fmt::format("{} {},{},{}: is too far for floats; give at most {:g} metres on each axis", flag,
+                                   place.x, place.y, place.z, kFarthestPlace));
+}
+
+glm::dvec3 parsePlace(const std::string& flag, const std::string& text) {
+  const std::optional<glm::dvec3> place = tryVec3(text);
+  if (!place) throw UsageError(fmt::format("{} {}: write three numbers, x,y,z", flag, text));
+  checkPlace(flag, *place);
+  return *place;
+}
+
 std::string shellWord(const std::string& word) {
   const bool plain = !word.empty() && word.find_first_not_of(
                                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"

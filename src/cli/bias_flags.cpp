@@ -1,6 +1,7 @@
 #include "cli/bias_flags.h"
 
 #include "base/error.h"
+#include "shadow/user_bias_check.h"
 
 #include <algorithm>
 #include <sstream>
@@ -145,7 +146,10 @@ void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases) {
 }
 
 void chooseBiases(const BiasFlags& flags, CompareOptions& options) {
-  for (const std::string& path : flags.biasFiles) options.userBiases.push_back(loadUserBias(path));
+  for (const std::string& path : flags.biasFiles) {
+    options.userBiases.push_back(loadUserBias(path));
+    checkUserBias(*options.userBiases.back());
+  }
   addNamedBiases(flags, options);
   options.filters = parseFilters(flags.filters);
   options.epsilonAt = parseEpsilonAt(flags.epsilonAt);

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
+#include "base/terminal.h"
 #include "cli/method_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
@@ -9,10 +10,12 @@
 #include "lab/compare/table.h"
 #include "lab/compare/threshold.h"
 #include "lab/page/report.h"
+#include "lab/results/result_folder.h"
 
 #include <cstdio>
 #include <memory>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 namespace gnomon {
@@ -33,25 +36,28 @@ int runCompare(const CompareFlags& flags) {
   std::vector<Threshold> thresholds;
   for (const std::string& text : flags.failIf) thresholds.push_back(parseThreshold(text));
   CompareOptions options = compareOptions(flags.method);
-  options.outDir = flags.out;
+  if (!flags.json.empty()) checkOutput(flags.json);
+  ResultFolder folder(flags.out, "results.json");
+  options.outDir = folder.aside();
   if (!flags.out.empty()) preloadImages();
   options.repeats = flags.repeats;
   options.tune = flags.tune;
 
   const Session session = openSession(flags.scene);
-  const Comparison comparison = compare(session, options);
+  Comparison comparison = compare(session, options);
+  comparison.files = folder.files();
   const std::string json = resultsJson(session, comparison, commandLine());
   if (!flags.out.empty()) {
     writeTextFile(options.outDir / "results.json", json);
     writeTextFile(options.outDir / "report.html", reportHtml(options.outDir));
+    folder.publish();
   }
   if (!flags.json.empty()) writeTextFile(flags.json, json);
 
-  std::fputs(comparisonHeader(session, comparison).c_str(), stdout);
-  std::fputs(comparisonTable(comparison).c_str(), stdout);
-  std::fputs(tuningTable(comparison).c_str(), stdout);
-  if (!flags.out.empty())
-    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
+  say(comparisonHeader(session, comparison));
+  say(comparisonTable(comparison));
+  say(tuningTable(comparison));
+  if (!flags.out.empty()) say(fmt::format("wrote {0}/report.html, results.json and pictures below {0}\n", flags.out));
   for (const Threshold& threshold : thresholds) {
     if (const std::optional<std::string> line = crossed(threshold, comparison.rows)) {
       std::fprintf(stderr, "gnomon: %s\n", line->c_str());

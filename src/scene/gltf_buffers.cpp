@@ -1,6 +1,7 @@
 #include "scene/gltf_buffers.h"
 
 #include "base/error.h"
+#include "base/message.h"
 #include "base/file.h"
 #include "scene/gltf_document.h"
 

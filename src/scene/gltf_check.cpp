@@ -1,6 +1,7 @@
 #include "scene/gltf_check.h"
 
 #include "base/error.h"
+#include "base/message.h"
 #include "scene/gltf_document.h"
 
 #include <algorithm>

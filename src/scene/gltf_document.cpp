@@ -1,6 +1,8 @@
 #include "scene/gltf_document.h"
 
 #include "base/error.h"
+#include "base/message.h"
+#include "base/parse_json.h"
 #include "scene/gltf_buffers.h"
 #include "scene/gltf_check.h"
 #include "scene/gltf_extensions.h"
@@ -24,7 +26,6 @@ using nlohmann::json;
 constexpr const char* kRemedy = "export the file again, or check it with the Khronos glTF Validator";
 constexpr uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;
 constexpr uint64_t kMostBufferBytes = uint64_t{8} << 30;
-constexpr int kMaxJsonDepth = 64;
 
 // What a file may unfold to: a byte index into a shared strip grows to 108 bytes of flat-shaded triangle; the
 // rest is for accessors that several primitives share.
@@ -67,14 +68,11 @@ Chunks splitGlb(std::string_view bytes, const std::string& name) {
   return chunks;
 }
 
-json parseJson(std::string_view text, const std::string& name) {
-  const auto limitDepth = [&](int depth, json::parse_event_t, json&) {
-    if (depth > kMaxJsonDepth)
-      throw fileError(name, fmt::format("the JSON is nested more than {} deep", kMaxJsonDepth), kRemedy);
-    return true;
-  };
+json parseGltfJson(std::string_view text, const std::string& name) {
   try {
-    return json::parse(text.begin(), text.end(), limitDepth);
+    return parseJson<json>(text, {});
+  } catch (const WorldError& error) {
+    throw fileError(name, error.what(), kRemedy);
   } catch (const json::exception& error) {
     throw fileError(name, "is not valid JSON: " + oneLine(error.what()), kRemedy);
   }
@@ -134,15 +132,6 @@ std::vector<GltfImage> takeImages(json& document) {
 
 }  // namespace
 
-std::string oneLine(std::string_view text) {
-  constexpr size_t kLongest = 240;
-  std::string line;
-  for (char c : text.substr(0, text.find('\n'))) line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  if (line.size() > kLongest) line = line.substr(0, kLongest) + "...";
-  while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
-  return line;
-}
-
 GltfDocument::GltfDocument(std::string_view bytes, std::string name, fs::path folder, GltfOptions options)
     : name_(std::move(name)),
       folder_(std::move(folder)),
@@ -151,7 +140,7 @@ GltfDocument::GltfDocument(std::string_view bytes, std::string name, fs::path fo
   if (bytes.empty()) refuse("is empty", "name a .gltf or .glb file");
   const bool isBinary = bytes.size() >= 4 && wordAt(bytes, 0) == kGlbMagic;
   const Chunks chunks = isBinary ? splitGlb(bytes, name_) : Chunks{bytes, std::nullopt};
-  json document = parseJson(chunks.json, name_);
+  json document = parseGltfJson(chunks.json, name_);
   if (document.is_object()) {
     ExtensionNotes told = checkExtensions(document, name_);
     notes = std::move(told.notes);

@@ -68,7 +68,4 @@ class GltfDocument {
   uint64_t budget_ = 0;  // bytes
 };
 
-// The first line of a message, without control characters and of a length a person reads.
-std::string oneLine(std::string_view text);
-
 }  // namespace gnomon

@@ -1,6 +1,7 @@
 #include "scene/gltf_draco.h"
 
 #include "base/error.h"
+#include "base/message.h"
 #include "scene/draco_codec.h"
 
 #include <dlfcn.h>

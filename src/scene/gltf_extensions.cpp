@@ -1,6 +1,7 @@
 #include "scene/gltf_extensions.h"
 
 #include "base/error.h"
+#include "base/message.h"
 
 #include <algorithm>
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/message.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_material.h"
@@ -169,7 +170,7 @@ class GeometryLoader {
 
   void loadParts(int index) {
     const tinygltf::Mesh& source = document_.model().meshes[index];
-    const std::string name = source.name.empty() ? fmt::format("mesh {}", index) : source.name;
+    const std::string name = source.name.empty() ? fmt::format("mesh {}", index) : printable(source.name);
     for (size_t k = 0; k < source.primitives.size(); ++k) {
       const int material = source.primitives[k].material;
       const UvSource uvSource = material < 0 ? UvSource{} : uvSources_[material];
@@ -264,7 +265,7 @@ class GeometryLoader {
       checkBounds(part, placed);
       Instance instance;
       instance.mesh = part.mesh;
-      instance.name = node.name.empty() ? scene_.meshes[part.mesh].name : node.name;
+      instance.name = node.name.empty() ? scene_.meshes[part.mesh].name : printable(node.name);
       if (shared) {
         instance.worldFromMesh = glm::mat4(placed.worldFromNode);
       } else {
@@ -306,7 +307,7 @@ class GeometryLoader {
 
 Scene sceneOf(GltfDocument& document) {
   Scene scene;
-  scene.name = std::filesystem::path(document.name()).stem().string();
+  scene.name = printable(std::filesystem::path(document.name()).stem().string());
   std::vector<UvSource> uvSources = loadMaterials(document, scene);
   const std::vector<PlacedNode> nodes = placeNodes(document);
   GeometryLoader(document, scene, std::move(uvSources)).load(placedMeshes(document, nodes));

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "base/message.h"
 
 #include <cmath>
 #include <map>
@@ -97,6 +98,7 @@ class TextureLoader {
     info.firstTexel = static_cast<uint32_t>(scene_.texels.size());
     info.width = decoded.width;
     info.height = decoded.height;
+    if (pixels > scene_.texels.size()) scene_.texels.reserve(scene_.texels.size() + pixels);
     for (size_t i = 0; i < decoded.values.size(); i += 4) {
       const uint8_t* p = decoded.values.data() + i;
       scene_.texels.push_back(static_cast<uint32_t>(p[0]) | static_cast<uint32_t>(p[1]) << 8 |

@@ -1,5 +1,7 @@
 #include "scene/gltf_view.h"
 
+#include "base/message.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -39,7 +41,9 @@ Light lightOf(GltfDocument& document, const PlacedNode& placed, int index, const
   const tinygltf::Light& source = model.lights[index];
   const std::string& nodeName = model.nodes[placed.node].name;
   Light light;
-  light.name = !nodeName.empty() ? nodeName : !source.name.empty() ? source.name : fmt::format("light {}", index);
+  light.name = printable(!nodeName.empty()      ? nodeName
+                         : !source.name.empty() ? source.name
+                                                : fmt::format("light {}", index));
   if (source.type != "point" && source.type != "spot" && source.type != "directional")
     document.refuse(fmt::format("light {} has the unknown type '{}'", index, oneLine(source.type)),
                     "use point, spot or directional");
@@ -99,9 +103,9 @@ std::optional<Camera> cameraOf(GltfDocument& document, const PlacedNode& placed,
     return std::nullopt;
   }
   Camera camera;
-  camera.name = !node.name.empty()     ? node.name
-                : !source.name.empty() ? source.name
-                                       : fmt::format("camera {}", node.camera);
+  camera.name = printable(!node.name.empty()     ? node.name
+                          : !source.name.empty() ? source.name
+                                                 : fmt::format("camera {}", node.camera));
   const double yFov = source.perspective.yfov, zNear = source.perspective.znear;
   if (!(yFov > 1e-4 && yFov < 3.1415))
     document.refuse(fmt::format("camera {} has yfov {}", node.camera, yFov), "use 0 < yfov < pi");

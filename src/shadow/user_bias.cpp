@@ -14,6 +14,8 @@ namespace gnomon {
 
 namespace {
 
+constexpr std::string_view kUserShader = "shared/bias/user.glsl";
+
 std::string trimmed(const std::string& text) {
   const size_t first = text.find_first_not_of(" \t\r");
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
@@ -120,8 +122,20 @@ std::string knobConstant(const std::string& knob) {
   return constant;
 }
 
+gpu::ShaderSource visibilityShader(const UserBias& bias) {
+  return {kVisibilityShader,
+          {{std::string(kUserShader), bias.source}, {"shared/bias/user_knobs.glsl", bias.knobsGlsl}}};
+}
+
+std::string inUsersWords(const UserBias& bias, std::string message) {
+  for (size_t at = 0; (at = message.find(kUserShader, at)) != std::string::npos; at += bias.path.size())
+    message.replace(at, kUserShader.size(), bias.path);
+  return message;
+}
+
 std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path) {
-  return readUserBias(path, readFile(path));
+  constexpr uint64_t kMostBytes = 64 << 10;
+  return readUserBias(path, readFile(path, kMostBytes));
 }
 
 std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source) {

@@ -13,6 +13,7 @@
 //
 // The value of parameter `max-offset` is params.knobs[kUserMaxOffset].
 
+#include "gpu/shader_compiler.h"
 #include "shadow/bias.h"
 
 #include <array>
@@ -34,6 +35,12 @@ struct UserBias {
 std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path);
 // The same of a text; `path` is what complaints name.
 std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source);
+
+inline constexpr const char* kVisibilityShader = "shadow/shade_visibility.comp.glsl";
+// The visibility pass's shader with this bias in it.
+gpu::ShaderSource visibilityShader(const UserBias& bias);
+// A compiler's message: it knows the file by the name it takes the place of.
+std::string inUsersWords(const UserBias& bias, std::string message);
 
 // "max-offset" -> "kUserMaxOffset".
 std::string knobConstant(const std::string& knob);

@@ -41,6 +41,36 @@ TEST_F(CliTest, CompareLeavesAPageAndReportMakesTheSameOneAgain) {
   EXPECT_EQ(page, readFile(folder_ / "out" / "report.html"));
 }
 
+TEST_F(CliTest, AFolderHoldsOneRunAndReportRefusesAnother) {
+  const std::string small = " --size 32 --map-size 32 --repeats 1 -o @/";
+  ASSERT_EQ(run("compare corner --maps spot,cube --biases none,adaptive" + small + "out").exitCode, 0);
+  ASSERT_EQ(run("compare corner --maps spot --biases none" + small + "out").exitCode, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "cube"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "spot" / "adaptive.beauty.png"));
+  // A run that fails half-way leaves what there was.
+  const std::string before = readFile(folder_ / "out" / "results.json");
+  expectMistake("compare corner --camera eye:0,1000,0,target:0,2000,0" + small + "out", 1, "sees no surface");
+  EXPECT_EQ(readFile(folder_ / "out" / "results.json"), before);
+  EXPECT_EQ(run("report @/out -o @/a.html").exitCode, 0);
+
+  ASSERT_EQ(run("compare contact --maps spot --biases none" + small + "other").exitCode, 0);
+  fs::copy_file(folder_ / "other" / "spot" / "none.exr", folder_ / "out" / "spot" / "none.exr",
+                fs::copy_options::overwrite_existing);
+  expectMistake("report @/out -o @/b.html", 1, "out/spot/none.exr: is not the one that results.json lists");
+  EXPECT_FALSE(fs::exists(folder_ / "b.html"));
+}
+
+TEST_F(CliTest, AMinusIsStandardOutputAndTheTableGoesElsewhere) {
+  const Result json = run("compare corner --biases none --size 32 --map-size 32 --repeats 1 --json -");
+  ASSERT_EQ(json.exitCode, 0) << json.err;
+  EXPECT_EQ(nlohmann::json::parse(json.out).at("rows").size(), 1u);
+  EXPECT_NE(json.err.find("bias error"), std::string::npos);
+  const Result picture = run("render corner --size 32 --map-size 32 -o -");
+  EXPECT_TRUE(picture.out.starts_with("\x89PNG")) << picture.err;
+  EXPECT_TRUE(run("scene corner -o -").out.starts_with("glTF"));
+  EXPECT_TRUE(run("scene --density puff -o -").out.starts_with(" BDV"));
+}
+
 // Of the commands that a page shows for its rows, as a person would copy them.
 std::vector<std::string> rowCommandsOf(std::string page) {
   const std::string before = "<h3>Command for this row</h3>\n<div class=\"command\"><code>";

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "scene/generate.h"
 #include "scene/gltf.h"
+#include "tests/base/file_limit.h"
 
 #include <filesystem>
 
@@ -161,6 +162,12 @@ TEST(RoundTripOfFiles, awkwardSceneLoadsAgainEqual) {
   const fs::path path = folder / "awkward.glb";
   saveGlb(scene, path);
   expectEqual(scene, loadGltf(path));
+}
+
+TEST(SaveGlb, aFullDiskLeavesTheOldFileWhereverItIsFull) {
+  const Folder folder;
+  const Scene scene = openScene("corner");
+  test::expectWholeOrOld<WorldError>(folder / "a.glb", [&] { saveGlb(scene, folder / "a.glb"); });
 }
 
 TEST(SaveGlb, unwritablePlaceIsAWorldErrorAndLeavesNothing) {

@@ -21,12 +21,6 @@ std::string namesOf(const std::vector<T>& things) {
   return names.empty() ? "none" : names;
 }
 
-glm::dvec3 parsePoint(const std::string& flag, const std::string& text) {
-  const std::optional<glm::dvec3> point = tryVec3(text);
-  if (!point) throw UsageError(fmt::format("{} {}: write three numbers, x,y,z", flag, text));
-  return *point;
-}
-
 // The scene's own light that suits the map, or the default one.
 Light lightFor(const Tracer& tracer, const Parameterization& map) {
   const Light* first = firstLightFor(tracer.scene(), map);
@@ -80,6 +74,7 @@ Light findLight(const Scene& scene, const std::string& text) {
     const std::optional<glm::dvec3> position = tryVec3(text.substr(at + 1));
     const Light* named = findNamed(scene.lights, "--light", text.substr(0, at));
     if (position && named && named->type != LightType::Directional) {
+      checkPlace("--light", *position);
       Light moved = *named;
       moved.name = text;
       moved.positionW = placed(*position);
@@ -90,6 +85,7 @@ Light findLight(const Scene& scene, const std::string& text) {
   if (!position)
     throw WorldError(fmt::format("--light {}: the scene has no light of this name; it has {}; or write x,y,z", text,
                                  namesOf(scene.lights)));
+  checkPlace("--light", *position);
   return lightAt(scene, placed(*position), text);
 }
 
@@ -101,9 +97,9 @@ Camera parseCamera(const Scene& scene, const std::string& text) {
   const auto take = [&] {
     if (key.empty()) return;
     if (key == "eye")
-      eye = parsePoint("--camera eye", value);
+      eye = parsePlace("--camera eye", value);
     else if (key == "target")
-      target = parsePoint("--camera target", value);
+      target = parsePlace("--camera target", value);
     else if (key == "fov" && parseNumber(value))
       fov = *parseNumber(value);
     else
@@ -143,8 +139,8 @@ Light asAsked(Light light, const SetupOptions& options, const Parameterization& 
   }
   if (!options.direction.empty()) {
     const glm::vec3 direction = parseVec3("--direction", options.direction);
-    if (glm::length(direction) == 0.0f) throw UsageError("--direction 0,0,0 has no direction; write x,y,z");
-    light.directionW = glm::normalize(direction);
+    if (direction == glm::vec3(0.0f)) throw UsageError("--direction 0,0,0 has no direction; write x,y,z");
+    light.directionW = glm::vec3(glm::normalize(glm::dvec3(direction)));  // of any length
     if (light.type == LightType::Point) light.type = LightType::Spot;
   }
   if (options.coneDegrees) {

@@ -135,6 +135,7 @@ std::string fogJson(const Session& session, const FogOptions& options, const Fog
                     const std::string& command) {
   MediaResults file;
   static_cast<ResultsHead&>(file) = resultsHead(session, command, result.gbufferMs);
+  file.files = result.files;
   for (size_t i = 0; i < result.view.lights.size(); ++i)
     file.lights.push_back(lightFacts(result.view.lights[i], result.view.sources[i]));
   file.medium = mediumFacts(result.view);

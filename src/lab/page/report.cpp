@@ -5,6 +5,7 @@
 #include "lab/page/report_page.h"
 #include "lab/page/report_rows.h"
 #include "lab/page/report_text.h"
+#include "lab/results/result_folder.h"
 #include "lab/results/results_file.h"
 
 #include <algorithm>
@@ -255,6 +256,7 @@ std::string comparisonHtml(const std::filesystem::path& folder, const Comparison
 
 std::string reportHtml(const std::filesystem::path& folder) {
   const Results results = readResults(folder);
+  std::visit([&](const auto& kind) { checkFiles(folder, kind.files); }, results);
   if (const auto* media = std::get_if<MediaResults>(&results)) return mediaHtml(folder, *media);
   return comparisonHtml(folder, forPage(std::get<Comparison>(results)));
 }

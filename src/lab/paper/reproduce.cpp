@@ -99,7 +99,7 @@ std::string reproductionJson(const Reproduction& reproduction, const ReproduceOp
   for (const auto& [name, results] : reproduction.comparisons)
     json["comparisons"].push_back({{"folder", name}, {"results", Json::parse(results)}});
   json["total_ms"] = 1000.0 * reproduction.seconds;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gnomon

@@ -62,6 +62,7 @@ struct ResultsHead {
   SceneFacts scene;
   CameraFacts camera;
   double gbufferMs = 0.0;
+  FileSums files;
 
   static constexpr auto fields() {
     return std::tuple(field("schema", &ResultsHead::schema, {.says = "version of this format"}),
@@ -69,7 +70,10 @@ struct ResultsHead {
                       field("scene", &ResultsHead::scene, {.says = "below"}),
                       field("camera", &ResultsHead::camera, {.says = "below"}),
                       field("gbuffer_ms", &ResultsHead::gbufferMs,
-                            {.unit = "ms", .says = "drawing the G-buffer; median of `--repeats`, wall clock"}));
+                            {.unit = "ms", .says = "drawing the G-buffer; median of `--repeats`, wall clock"}),
+                      field("files", &ResultsHead::files,
+                            {.says = "with `-o`: each file of the run, and its CRC-32; a report refuses others",
+                             .absent = Absent::Earlier}));
   }
 };
 
