@@ -14,6 +14,7 @@
 #include <functional>
 #include <random>
 
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
 namespace gnomon {

@@ -44,9 +44,11 @@ class BoundedArchive final : public openvdb::io::Archive {
  public:
   explicit BoundedArchive(std::string bytes) : in_(std::move(bytes)) {
     in_.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
-    auto metadata = openvdb::SharedPtr<openvdb::io::StreamMetadata>(new openvdb::io::StreamMetadata);
-    openvdb::io::setStreamMetadataPtr(in_, metadata, /*transfer=*/false);
+    openvdb::io::setStreamMetadataPtr(in_, metadata_, /*transfer=*/false);
     readHeader(in_);
+    setFormatVersion(in_);
+    setLibraryVersion(in_);
+    setDataCompression(in_);
     openvdb::MetaMap().readMeta(in_);
     for (int32_t left = readGridCount(in_); left > 0; --left) readEntry();
   }
@@ -103,6 +105,7 @@ class BoundedArchive final : public openvdb::io::Archive {
     return entry.grid;
   }
 
+  openvdb::io::StreamMetadata::Ptr metadata_{new openvdb::io::StreamMetadata};  // the stream has its address
   std::istringstream in_;
   std::vector<Entry> entries_;
 };
