@@ -45,10 +45,6 @@ struct Entry {
   size_t row = 0;  // the first of its rows, one a filter
 };
 
-std::string filterKnobName(const Knob& knob) {
-  return fmt::format("filter_{}", knob.name);
-}
-
 // Knobs, then what the map holds and how it is drawn and fitted.
 Params paramsOf(const Method& method, const Filter& filter, const Parameterization& map, const FittedMap& fitted,
                 const CompareOptions& choice) {
@@ -57,7 +53,7 @@ Params paramsOf(const Method& method, const Filter& filter, const Parameterizati
   for (const Knob& knob : knobsOf(bias)) params.push_back({knob.name, shortest(valueOf(method.params, bias, knob))});
   const ChosenFilter chosen = filterFor(choice, filter);
   for (size_t i = 0; i < filter.knobs.size(); ++i)
-    params.push_back({filterKnobName(filter.knobs[i]), shortest(chosen.params.knobs[i])});
+    params.push_back({filterParamName(filter.knobs[i].name), shortest(chosen.params.knobs[i])});
   if (bias.takesEpsilonAt) params.push_back({"epsilon_at", epsilonAtName(method.params.epsilonAt)});
   params.push_back({"map_content", contentName(bias.channels)});
   params.push_back({"cull", cullModeName(choice.cull)});
@@ -179,7 +175,7 @@ class MapComparison {
       row.params = paramsOf(entry.method, *filter, parameterization_, fitted, options_);
       row.filter = filter->name;
       describe(row, entry, judged);
-      for (const Knob& knob : filter->knobs) row.units.emplace_back(filterKnobName(knob), unitName(knob.unit));
+      for (const Knob& knob : filter->knobs) row.units.emplace_back(filterParamName(knob.name), unitName(knob.unit));
       row.rmse = rmseOf(lit_.receivers(), visibility, truth.visibility);
       const int width = lit_.receivers().width, height = lit_.receivers().height;
       row.worstAcne = findWorstPlace(judged.labels, width, height, Label::Acne);
@@ -285,9 +281,10 @@ void addSums(Comparison& comparison) {
       sum.pictures.clear();
       sum.worstAcne = sum.worstLeak = std::nullopt;
       sum.flip = std::nullopt;
-      if (sum.tuning) {  // each light has its own
-        std::erase_if(sum.params, [&](const Param& param) { return sum.isKnob(param); });
-        sum.units.clear();
+      if (sum.tuning) {  // of the bias each light has its own values; the filter is one for all
+        std::erase_if(sum.params,
+                      [&](const Param& param) { return sum.isKnob(param) && !isFilterParam(param.name); });
+        std::erase_if(sum.units, [](const auto& unit) { return !isFilterParam(unit.first); });
       }
       continue;
     }

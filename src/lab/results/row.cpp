@@ -15,6 +15,20 @@ std::string paramText(const Params& params, const std::string& name) {
   return found == params.end() ? "" : paramText(*found);
 }
 
+namespace {
+
+constexpr const char* kFilterParam = "filter_";
+
+}  // namespace
+
+std::string filterParamName(const std::string& knob) {
+  return kFilterParam + knob;
+}
+
+bool isFilterParam(const std::string& name) {
+  return name.starts_with(kFilterParam);
+}
+
 double Row::shareOf(size_t pixels) const {
   return scored == 0 ? 0.0 : static_cast<double>(pixels) / static_cast<double>(scored);
 }

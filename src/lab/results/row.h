@@ -71,6 +71,10 @@ using Params = std::vector<Param>;
 std::string paramText(const Param& param);                             // "0.0125", "solids"
 std::string paramText(const Params& params, const std::string& name);  // empty where there is none
 
+// A filter's parameters stand among a row's beside the bias's: "filter_width".
+std::string filterParamName(const std::string& knob);
+bool isFilterParam(const std::string& name);
+
 // Counts are of the unfiltered map, and add up to `scored`.
 struct Row {
   std::string map, light;
