@@ -1,6 +1,7 @@
 #include "cli/bias_flags.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 
 #include <algorithm>
 #include <sstream>
@@ -97,7 +98,8 @@ void setUserKnob(const std::string& text, CompareOptions& options) {
       found = true;
     }
   }
-  if (!found) throw UsageError(fmt::format("--bias-file-knob {}: no such parameter; choose from {}", text, known));
+  if (!found)
+    throw UsageError(fmt::format("--bias-file-knob {}: no such parameter; {}", text, chooseFrom(name, known)));
 }
 
 // Those of all --bias-file, after the others.

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/image.h"
+#include "cli/choice.h"
 #include "cli/method_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/verbs.h"
@@ -51,7 +52,7 @@ Run addRender(CLI::App* verb) {
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
                    "layer-gap (second depth - first) or texel-density (texels per square metre)")
-      ->check(CLI::IsMember(picturesToShow()))
+      ->check(oneOf(picturesToShow()))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };
 }

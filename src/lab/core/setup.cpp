@@ -1,6 +1,7 @@
 #include "lab/core/setup.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "judge/ground_truth.h"
 
 #include <algorithm>
@@ -18,6 +19,16 @@ std::string namesOf(const std::vector<T>& things) {
   std::string names;
   for (const T& thing : things) names += (names.empty() ? "" : ", ") + thing.name;
   return names.empty() ? "none" : names;
+}
+
+// "it has a, b", or "did you mean a? It has a, b".
+template <typename T>
+std::string whatItHas(const std::string& wanted, const std::vector<T>& things) {
+  std::vector<std::string> names;
+  for (const T& thing : things) names.push_back(thing.name);
+  const std::string nearest = nearestName(wanted, names);
+  return nearest.empty() ? "it has " + namesOf(things)
+                         : fmt::format("did you mean {}? It has {}", nearest, namesOf(things));
 }
 
 // Whether looking down on the scene one sees nothing but its top: a room with a roof, whose inside is meant.
@@ -73,8 +84,8 @@ Light findLight(const Scene& scene, const std::string& text) {
   if (named != scene.lights.end()) return *named;
   const std::optional<glm::vec3> position = tryVec3(text);
   if (!position)
-    throw WorldError(fmt::format("--light {}: the scene has no light of this name; it has {}; or write x,y,z", text,
-                                 namesOf(scene.lights)));
+    throw WorldError(fmt::format("--light {}: the scene has no light of this name; {}; or write x,y,z", text,
+                                 whatItHas(text, scene.lights)));
   Light light;
   light.name = text;
   light.positionW = *position;
@@ -199,9 +210,9 @@ Camera chooseCamera(const SetupOptions& options, const Tracer& tracer) {
   if (named != scene.cameras.end()) return *named;
   if (options.camera.find(':') != std::string::npos) return parseCamera(options.camera);
   throw WorldError(
-      fmt::format("--camera {}: the scene has no camera of this name; it has {}; or write "
+      fmt::format("--camera {}: the scene has no camera of this name; {}; or write "
                   "eye:x,y,z,target:x,y,z[,fov:degrees]",
-                  options.camera, namesOf(scene.cameras)));
+                  options.camera, whatItHas(options.camera, scene.cameras)));
 }
 
 }  // namespace gnomon
