@@ -47,7 +47,7 @@ int runRender(const RenderFlags& flags) {
 Run addRender(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
   addSceneFlags(*verb, flags->scene);
-  addMethodFlags(*verb, flags->method, "spot", "adaptive");
+  addMethodFlags(*verb, flags->method, "spot", kDefaultBias);
   verb->add_option("-o,--out", flags->out, "the picture: .png (8 bits, for viewing) or .exr (linear data)")->required();
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "

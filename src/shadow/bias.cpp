@@ -118,6 +118,22 @@ const std::vector<BiasMethod>& biasMethods() {
        .knobs = {},
        .sharesKnobsWith = "adaptive",
        .takesEpsilonAt = true},
+      {.id = glsl::kBiasEevee,
+       .name = "eevee",
+       .sentence = "Along the normal by a texel's radius, and a texel's slope (Blender's EEVEE).",
+       .knobs = {}},
+      {.id = glsl::kBiasGodot,
+       .name = "godot",
+       .sentence = "Along the normal by a texel, and 1% of the map's depth (Godot 4's defaults).",
+       .knobs = {}},
+      {.id = glsl::kBiasBevy,
+       .name = "bevy",
+       .sentence = "Along the normal by texels, and towards the light by centimetres (Bevy's defaults).",
+       .knobs = {}},
+      {.id = glsl::kBiasUnrealVsm,
+       .name = "unreal-vsm",
+       .sentence = "Twice the receiver plane's change to the texel, towards the light (Unreal 5's virtual shadow maps).",
+       .knobs = {}},
   };
   return methods;
 }

@@ -48,7 +48,7 @@ std::string factorText(const Row& rival, const Row& row) {
 // "cube adaptive against the tuned constant: 120 / 40 wrong pixels = 3.00". More than 1: better.
 std::string factorLines(const Comparison& comparison, const std::string& map, const std::string& filter) {
   std::string text;
-  for (const char* bias : {"dual", "adaptive"}) {
+  for (const char* bias : {"dual", kDefaultBias}) {
     for (const bool tuned : {false, true}) {
       const Row* row = findRow(comparison, map, filter, bias, tuned);
       for (const char* rivalName : {"constant", "slope"}) {
