@@ -107,8 +107,8 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
 }
 
 TEST_F(CliTest, WhatIsMisspeltIsAnsweredWithWhatWasMeant) {
-  expectMistake("compar contact", 2, "compar: no such subcommand; did you mean compare? Choose from compare, report,");
-  expectMistake("shadows contact", 2, "shadows: no such subcommand; choose from compare, report,");
+  expectMistake("compar contact", 2, "compar: no such subcommand; did you mean compare? Choose from compare, render,");
+  expectMistake("shadows contact", 2, "shadows: no such subcommand; choose from compare, render,");
   expectMistake("compare contact --bises none", 2, "--bises: compare has no such flag; did you mean --biases?");
   expectMistake("compare contact --constant-ofset=1", 2, "did you mean --constant-offset?");
   expectMistake("fog grate --sigma_s 1", 2, "did you mean --sigma-s?");
