@@ -44,14 +44,18 @@ GNOMON_FN PlaneDepth receiverPlaneDepth(ShadowMap map, int slice, Receiver recei
 GNOMON_SHARED_END
 
 #include "shared/bias/adaptive.glsl"
+#include "shared/bias/bevy.glsl"
 #include "shared/bias/constant.glsl"
 #include "shared/bias/cosine.glsl"
 #include "shared/bias/dual_layer.glsl"
+#include "shared/bias/eevee.glsl"
+#include "shared/bias/godot.glsl"
 #include "shared/bias/none.glsl"
 #include "shared/bias/normal_offset.glsl"
 #include "shared/bias/receiver_plane.glsl"
 #include "shared/bias/second_depth.glsl"
 #include "shared/bias/slope.glsl"
+#include "shared/bias/unreal_vsm.glsl"
 #include "shared/bias/user_knobs.glsl"
 #include "shared/bias/user.glsl"
 
@@ -67,6 +71,10 @@ GNOMON_SHARED_BEGIN
 // Where the receiver is looked up and compared: at itself, but for methods that move it first.
 GNOMON_FN Receiver biasReceiver(int method, ShadowMap map, BiasParams params, Receiver receiver) {
   if (biasMethod(method) == kBiasNormalOffset) return normalOffsetReceiver(map, params, receiver);
+  if (biasMethod(method) == kBiasEevee) return eeveeReceiver(map, receiver);
+  if (biasMethod(method) == kBiasGodot) return godotReceiver(map, receiver);
+  if (biasMethod(method) == kBiasBevy) return bevyReceiver(map, receiver);
+  if (biasMethod(method) == kBiasUnrealVsm) return unrealVsmReceiver(map, receiver);
   return receiver;
 }
 
@@ -102,6 +110,14 @@ GNOMON_FN bool biasLit(int method, ShadowMap map, BiasParams params, Receiver re
       return dualLit(map, params, receiver, tap);
     case kBiasUser:
       return userLit(map, params, receiver, tap);
+    case kBiasEevee:
+      return eeveeLit(map, receiver, tap);
+    case kBiasGodot:
+      return godotLit(map, receiver, tap);
+    case kBiasBevy:
+      return noneLit(map, receiver, tap);
+    case kBiasUnrealVsm:
+      return unrealVsmLit(map, receiver, tap);
   }
   known = false;
   return false;

@@ -32,6 +32,11 @@ const int kBiasDual = 9;
 const int kBiasAdaptiveClamped = 10;
 const int kBiasAdaptiveEhm = 11;
 const int kBiasUser = 12;  // bias/user.glsl, which --bias-file replaces
+// What engines do by themselves.
+const int kBiasEevee = 32;
+const int kBiasGodot = 33;
+const int kBiasBevy = 34;
+const int kBiasUnrealVsm = 35;
 
 GNOMON_SHARED_END
 

@@ -1,6 +1,7 @@
 #include "cli/bias_flags.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "shadow/user_bias_check.h"
 
 #include <algorithm>
@@ -98,7 +99,8 @@ void setUserKnob(const std::string& text, CompareOptions& options) {
       found = true;
     }
   }
-  if (!found) throw UsageError(fmt::format("--bias-file-knob {}: no such parameter; choose from {}", text, known));
+  if (!found)
+    throw UsageError(fmt::format("--bias-file-knob {}: no such parameter; {}", text, chooseFrom(name, known)));
 }
 
 // Those of all --bias-file, after the others.

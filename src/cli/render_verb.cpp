@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "base/image.h"
 #include "base/terminal.h"
+#include "cli/choice.h"
 #include "cli/method_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/verbs.h"
@@ -49,12 +50,12 @@ int runRender(const RenderFlags& flags) {
 Run addRender(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
   addSceneFlags(*verb, flags->scene);
-  addMethodFlags(*verb, flags->method, "spot", "adaptive");
+  addMethodFlags(*verb, flags->method, "spot", kDefaultBias);
   verb->add_option("-o,--out", flags->out, "the picture: .png (8 bits, for viewing) or .exr (linear data)")->required();
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
                    "layer-gap (second depth - first) or texel-density (texels per square metre)")
-      ->check(CLI::IsMember(picturesToShow()))
+      ->check(oneOf(picturesToShow()))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };
 }

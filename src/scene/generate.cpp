@@ -1,6 +1,7 @@
 #include "scene/generate.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "scene/generate/scenes.h"
 #include "scene/gltf.h"
 
@@ -72,7 +73,7 @@ Scene openScene(const std::string& nameOrPath, const GltfOptions& options) {
   std::string names;
   for (const GeneratedScene& scene : generatedScenes()) names += (names.empty() ? "" : ", ") + std::string(scene.name);
   throw fileError(nameOrPath, "is neither a file nor the name of a generated scene",
-                  fmt::format("give a .gltf or .glb file, or one of: {}", names));
+                  fmt::format("give a .gltf or .glb file, or a generated scene; {}", chooseFrom(nameOrPath, names)));
 }
 
 }  // namespace gnomon

@@ -1,8 +1,8 @@
 #include "scene/gltf_buffers.h"
 
 #include "base/error.h"
-#include "base/message.h"
 #include "base/file.h"
+#include "base/message.h"
 #include "scene/gltf_document.h"
 
 #include <algorithm>

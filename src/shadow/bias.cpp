@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/suggest.h"
 
 #include <algorithm>
 #include <array>
@@ -117,6 +118,23 @@ const std::vector<BiasMethod>& biasMethods() {
        .knobs = {},
        .sharesKnobsWith = "adaptive",
        .takesEpsilonAt = true},
+      {.id = glsl::kBiasEevee,
+       .name = "eevee",
+       .sentence = "Along the normal by a texel's radius, and a texel's slope (Blender's EEVEE).",
+       .knobs = {}},
+      {.id = glsl::kBiasGodot,
+       .name = "godot",
+       .sentence = "Along the normal by a texel, and 1% of the map's depth (Godot 4's defaults).",
+       .knobs = {}},
+      {.id = glsl::kBiasBevy,
+       .name = "bevy",
+       .sentence = "Along the normal by texels, and towards the light by centimetres (Bevy's defaults).",
+       .knobs = {}},
+      {.id = glsl::kBiasUnrealVsm,
+       .name = "unreal-vsm",
+       .sentence =
+           "Twice the receiver plane's change to the texel, towards the light (Unreal 5's virtual shadow maps).",
+       .knobs = {}},
   };
   return methods;
 }
@@ -140,7 +158,7 @@ const std::vector<Knob>& knobsOf(const BiasMethod& method) {
 const BiasMethod& findBias(const std::string& name) {
   for (const BiasMethod& method : biasMethods())
     if (method.name == name) return method;
-  throw UsageError(fmt::format("--biases {}: no such bias; choose from {}", name, biasNames()));
+  throw UsageError(fmt::format("--biases {}: no such bias; {}", name, chooseFrom(name, biasNames())));
 }
 
 std::vector<const BiasMethod*> parseBiases(const std::string& list) {
@@ -183,7 +201,7 @@ float valueOf(const BiasParams& params, const BiasMethod& method, const Knob& kn
 int parseEpsilonAt(const std::string& name) {
   for (size_t i = 0; i < kEpsilonAtNames.size(); ++i)
     if (name == kEpsilonAtNames[i]) return static_cast<int>(i);
-  throw UsageError(fmt::format("--epsilon-at {}: choose from fragment, occluder, stored", name));
+  throw UsageError(fmt::format("--epsilon-at {}: {}", name, chooseFrom(name, "fragment, occluder, stored")));
 }
 
 const char* epsilonAtName(int epsilonAt) {

@@ -26,6 +26,9 @@ struct BiasMethod {
   const UserBias* user = nullptr;             // of --bias-file (user_bias.h)
 };
 
+// The best one that needs nobody to choose a parameter: what `gnomon render` draws with unless told otherwise.
+inline constexpr const char* kDefaultBias = "adaptive";
+
 // In the order they are listed and run.
 const std::vector<BiasMethod>& biasMethods();
 

@@ -1,5 +1,7 @@
 #include "shadow/channel.h"
 
+#include "base/check.h"
+
 #include <algorithm>
 #include <sstream>
 
@@ -39,6 +41,17 @@ ChannelSet completed(ChannelSet set) {
   for (const Channel& channel : channels())
     if ((set & channel.bit) != 0) set |= channel.needs;
   return set;
+}
+
+size_t bytesOf(ChannelSet set) {
+  size_t bytes = 0;
+  for (const Channel& channel : channels()) {
+    if ((set & channel.bit) == 0) continue;
+    GNOMON_CHECK(channel.format == VK_FORMAT_D32_SFLOAT || channel.format == VK_FORMAT_R32_SFLOAT ||
+                 channel.format == VK_FORMAT_R32_UINT);
+    bytes += 4;
+  }
+  return bytes;
 }
 
 ChannelSet writtenBy(ChannelPass pass, ChannelSet set) {

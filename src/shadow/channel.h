@@ -39,6 +39,9 @@ const std::vector<Channel>& channels();
 // The set with what its channels need: what a map that holds it holds.
 ChannelSet completed(ChannelSet set);
 
+// What a texel takes that stores these, bytes.
+size_t bytesOf(ChannelSet set);
+
 // Those of a set that a pass writes.
 ChannelSet writtenBy(ChannelPass pass, ChannelSet set);
 

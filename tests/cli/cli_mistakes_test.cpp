@@ -73,6 +73,7 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("compare contact --constant-offset -1", 2, "--constant-offset");
   expectMistake("compare contact --constant-offset nan", 2, "--constant-offset");
   expectMistake("compare contact --fail-if acne", 2, "--fail-if 'acne'");
+  expectMistake("compare contact --fail-if 'adaptiv:acne>0.1%'", 2, "did you mean adaptive?");
   expectMistake("compare contact --camera eye:1,2", 2, "--camera");
   expectMistake("compare contact --cone 300", 2, "--cone 300");
   expectMistake("compare contact --cull all", 2, "--cull all");
@@ -107,6 +108,27 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("fog grate --frames 3 --move light:1,0,0", 2, "give a folder with -o");
   expectMistake("scene tilted-planes", 2, "-o FILE.glb");
   expectMistake("scene tilted-planes -o @/a.obj", 2, "the name must end in .glb");
+  EXPECT_EQ(fileCount(), 0u);
+}
+
+TEST_F(CliTest, WhatIsMisspeltIsAnsweredWithWhatWasMeant) {
+  expectMistake("compar contact", 2, "compar: no such subcommand; did you mean compare? Choose from compare, render,");
+  expectMistake("shadows contact", 2, "shadows: no such subcommand; choose from compare, render,");
+  expectMistake("compare contact --bises none", 2, "--bises: compare has no such flag; did you mean --biases?");
+  expectMistake("compare contact --constant-ofset=1", 2, "did you mean --constant-offset?");
+  expectMistake("fog grate --sigma_s 1", 2, "did you mean --sigma-s?");
+  expectMistake("compare contact other.glb", 2, "other.glb: one word too many");
+  expectMistake("compare contact --biases adpative", 2, "did you mean adaptive? Choose from none, constant,");
+  expectMistake("compare contact --maps cubes", 2, "did you mean cube?");
+  expectMistake("compare contact --maps para", 2, "did you mean paraboloid?");
+  expectMistake("compare contact --filters biliner", 2, "did you mean bilinear?");
+  expectMistake("compare contact --cube-depth Radial", 2, "did you mean radial?");
+  expectMistake("compare contact --epsilon-at store", 2, "did you mean stored?");
+  expectMistake("render contact --show label -o @/a.png", 2, "did you mean labels?");
+  expectMistake("fog grate --integrators runz", 2, "did you mean runs?");
+  expectMistake("reproduce dou2041", 2, "did you mean dou2014?");
+  expectMistake("compare atriom", 1, "did you mean atrium?");
+  expectMistake("compare atrium --light lantren --size 16", 1, "did you mean lantern?");
   EXPECT_EQ(fileCount(), 0u);
 }
 

@@ -1,6 +1,7 @@
 #include "lab/core/setup.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "judge/ground_truth.h"
 #include "lab/core/default_view.h"
 
@@ -19,6 +20,16 @@ std::string namesOf(const std::vector<T>& things) {
   std::string names;
   for (const T& thing : things) names += (names.empty() ? "" : ", ") + thing.name;
   return names.empty() ? "none" : names;
+}
+
+// "it has a, b", or "did you mean a? It has a, b".
+template <typename T>
+std::string whatItHas(const std::string& wanted, const std::vector<T>& things) {
+  std::vector<std::string> names;
+  for (const T& thing : things) names.push_back(thing.name);
+  const std::string nearest = nearestName(wanted, names);
+  return nearest.empty() ? "it has " + namesOf(things)
+                         : fmt::format("did you mean {}? It has {}", nearest, namesOf(things));
 }
 
 // The scene's own light that suits the map, or the default one.
@@ -83,8 +94,8 @@ Light findLight(const Scene& scene, const std::string& text) {
   }
   const std::optional<glm::dvec3> position = tryVec3(text);
   if (!position)
-    throw WorldError(fmt::format("--light {}: the scene has no light of this name; it has {}; or write x,y,z", text,
-                                 namesOf(scene.lights)));
+    throw WorldError(fmt::format("--light {}: the scene has no light of this name; {}; or write x,y,z", text,
+                                 whatItHas(text, scene.lights)));
   checkPlace("--light", *position);
   return lightAt(scene, placed(*position), text);
 }
@@ -227,9 +238,9 @@ Camera chooseCamera(const SetupOptions& options, const Tracer& tracer) {
   if (const Camera* named = findNamed(scene.cameras, "--camera", options.camera)) return *named;
   if (options.camera.find(':') != std::string::npos) return parseCamera(scene, options.camera);
   throw WorldError(
-      fmt::format("--camera {}: the scene has no camera of this name; it has {}; or write "
+      fmt::format("--camera {}: the scene has no camera of this name; {}; or write "
                   "eye:x,y,z,target:x,y,z[,fov:degrees]",
-                  options.camera, namesOf(scene.cameras)));
+                  options.camera, whatItHas(options.camera, scene.cameras)));
 }
 
 }  // namespace gnomon

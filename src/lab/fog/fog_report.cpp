@@ -36,6 +36,7 @@ std::string referenceText(const FogResult& result) {
       "mean {:.4g} cd/m^2; the last doubling of samples changed no pixel by more than {:.2g} of it (tolerance "
       "{:.2g}; {:.0f} rays a pixel, at most {} doublings",
       reference.mean, reference.worstChange, reference.bound, perPixel, reference.doublings);
+  if (!(reference.mean > 0.0)) text += "; it is black: errors are absolute, cd/m^2";
   if (reference.atLimit > 0) text += fmt::format("; {} pixels reached that limit", reference.atLimit);
   return text +
          fmt::format("; {}{:.1f} s)", result.referenceFromCache ? "cached, from a run of " : "", reference.ms / 1000.0);
