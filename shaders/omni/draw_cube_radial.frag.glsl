@@ -13,6 +13,7 @@ layout(constant_id = 0) const int kMasked = 0;
 layout(location = 0) in vec2 uv;
 layout(location = 1) in flat uint instanceIndex;
 layout(location = 2) in flat uint firstTriangle;  // gl_PrimitiveID counts from it
+layout(location = 3) in flat uint firstId;        // and so do ids
 
 void main() {
   if (kMasked == 1 && isHole(materials[instances[instanceIndex].material], uv)) discard;
@@ -25,6 +26,7 @@ void main() {
   drawn.depth = cubeDepth(map, drawnSlice(), vec3(mapUv.x * 2.0f - 1.0f, mapUv.y * 2.0f - 1.0f, 1.0f) * m);
   drawn.triangle = firstTriangle + gl_PrimitiveID;
   drawn.instance = instanceIndex;
+  drawn.id = firstId + gl_PrimitiveID;
   // As a near plane would: what is nearer than the near end is not in the map.
   if (drawn.depth < 0.0f) discard;
   gl_FragDepth = drawn.depth;

@@ -38,6 +38,7 @@ void main() {
   drawn.depth = mapDepth(map, slice, ray.dir * along);
   drawn.triangle = triangleAndInstance.x;
   drawn.instance = triangleAndInstance.y;
+  drawn.id = triangleId;
   // As a near plane would: what is nearer than the near end is not in the map.
   if (!isWithin(distances) || !(drawn.depth >= 0.0f) || !mapHoldsTexelAt(map, gl_FragCoord.xy)) discard;
   if (kMasked == 1 && isHoleAt(distances)) discard;

@@ -61,6 +61,8 @@ VisibilityPass::VisibilityPass(const gpu::Device& device, int width, int height)
           {.name = "shade uniforms", .size = sizeof(glsl::ShadeUniforms), .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
       visibility_(device, {.name = "visibility", .size = pixelBytes(width, height, sizeof(float))}),
       diagnosis_(device, {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}),
+      noIds_(device,
+             {.name = "no ids", .format = VK_FORMAT_R32_UINT, .array = true, .usage = VK_IMAGE_USAGE_SAMPLED_BIT}),
       programs_(device) {}
 
 void VisibilityPass::setUniforms(const glsl::ShadeUniforms& uniforms) {
@@ -94,7 +96,10 @@ void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, 
                                         {glsl::kBindShade, uniforms_},
                                         {glsl::kBindVisibility, visibility_},
                                         {glsl::kBindDiagnosis, diagnosis_}};
-  for (const Channel& channel : channels()) bindings.emplace_back(channel.binding, map.imageOrAny(channel.bit));
+  for (const Channel& channel : channels()) {
+    const bool lacksIds = channel.format == VK_FORMAT_R32_UINT && (map.channels() & channel.bit) == 0;
+    bindings.emplace_back(channel.binding, lacksIds ? noIds_ : map.imageOrAny(channel.bit));
+  }
   commands.dispatch(program({method.id, diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0,
                              method.channels, filter.id, filter.tapCount, method.user}),
                     groupCount_, gpu::asPush(filter.params), bindings);

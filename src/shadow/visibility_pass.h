@@ -51,6 +51,7 @@ class VisibilityPass {
   const gpu::Device& device_;
   glm::uvec3 groupCount_;
   gpu::Buffer uniforms_, visibility_, diagnosis_;
+  gpu::Image noIds_;  // bound where a map has none
   std::vector<std::unique_ptr<Variant>> variants_;
   gpu::ComputePrograms programs_;
 };
