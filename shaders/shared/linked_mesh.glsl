@@ -1,9 +1,9 @@
 // Triangles that know their neighbours: the table that a walk over a mesh reads (src/scene/adjacency.h fills it).
 //
-//             corner 2                 Row k of a triangle, at 3 * triangle + k, is its corner k and what lies across
-//               / \                    the edge opposite to it, from corner k + 1 to corner k + 2 (modulo 3):
+//             corner 2               Row k of a triangle, at 3 * triangle + k, is its corner k and what lies across
+//               / \                  the edge opposite to it, from corner k + 1 to corner k + 2 (modulo 3):
 //      edge 1  /   \  edge 0
-//             /     \                     link = neighbour << 3 | turned << 2 | the neighbour's row opposite to the edge
+//             /     \                  link = neighbour << 3 | turned << 2 | the neighbour's row opposite to the edge
 //     corner 0-------corner 1
 //              edge 2                  turned: the neighbour winds the other way round. kNoLink where the edge is open or
 //                                      belongs to more than two triangles.

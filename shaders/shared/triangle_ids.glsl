@@ -1,10 +1,10 @@
-// Numbers of triangles: what the channels `ids` and `second-ids` of a map hold. 32 bits name a triangle of an instance; 0
-// is none.
+// Numbers of triangles: what the channels `ids` and `second-ids` of a map hold. 32 bits name a triangle of an instance;
+// 0 is none.
 //
 //   no mesh is instanced   id = 1 + the triangle's place in the array of all triangles
-//   else                   id = 1 + chunk << idShift | place in the chunk: an instance's triangles are cut in chunks of
-//                          2^idShift, and a table says of which instance a chunk is and where it begins. So the ids of an
-//                          instance's triangles follow one another, and one look-up takes an id apart.
+//   else                   id = 1 + chunk << idShift | place in the chunk: an instance's triangles are cut in chunks
+//                          of 2^idShift, and a table says of which instance a chunk is and where it begins. So the ids
+//                          of an instance's triangles follow one another, and one look-up takes an id apart.
 //
 // src/scene/triangle_ids.h chooses the shift so that the ids fit.
 #ifndef GNOMON_TRIANGLE_IDS_GLSL

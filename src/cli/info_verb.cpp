@@ -3,6 +3,7 @@
 #include "gpu/device.h"
 #include "gpu/shader_compiler.h"
 #include "lab/compare/results.h"
+#include "scene/adjacency.h"
 #include "scene/generate.h"
 
 #include <cstdio>
@@ -58,8 +59,12 @@ void printScene(const std::string& name) {
              bounds.lower.y, bounds.lower.z, bounds.upper.x, bounds.upper.y, bounds.upper.z, bounds.diagonal());
   for (const Mesh& mesh : scene.meshes) {
     const Material& material = scene.materials[mesh.material];
-    fmt::print("mesh '{}': {} triangles, {}{}\n", mesh.name, mesh.indices.size() / 3, castsAs(scene, mesh),
-               material.alphaMode == AlphaMode::Mask ? ", alpha mask" : "");
+    const Adjacency adjacency = computeAdjacency(mesh.positions, mesh.indices);
+    fmt::print("mesh '{}': {} triangles, {}{}; {} connected, {} open edges, {} non-manifold\n", mesh.name,
+               mesh.indices.size() / 3, castsAs(scene, mesh),
+               material.alphaMode == AlphaMode::Mask ? ", alpha mask" : "",
+               adjacency.sheets == 1 ? "1 surface" : fmt::format("{} surfaces", adjacency.sheets), adjacency.openEdges,
+               adjacency.nonManifoldEdges);
   }
   for (const Light& light : scene.lights) fmt::print("light '{}': {}\n", light.name, lightText(light));
   for (const Camera& camera : scene.cameras) {

@@ -1,5 +1,7 @@
 #include "scene/scene_buffers.h"
 
+#include "scene/mesh_links.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -101,13 +103,19 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
     used[instance.mesh] = true;
   }
   std::ranges::stable_sort(buffers.draws, {}, &Draw::masked);
+  const MeshLinks links = linkMeshes(scene, buffers.instanced);
+  buffers.meshRows = gpu::createBufferWith(device, "mesh rows", links.rows);
+  buffers.triangleFacts = gpu::createBufferWith(device, "triangle facts", links.facts);
+  buffers.endMargin = receiverMargin(scene);
   buffers.ids = numberTriangles(triangleCounts, buffers.firstTriangles, buffers.instanced);
   for (size_t i = 0; i < instances.size(); ++i) instances[i].firstId = buffers.ids.firstIds[i];
+  buffers.idChunks = gpu::createBufferWith(device, "id chunks", buffers.ids.chunks);
 
   std::vector<glsl::SceneMaterial> materials;
   for (const Material& material : scene.materials) {
     materials.push_back(toGpu(material));
     buffers.textured = buffers.textured || material.baseColorTexture >= 0;
+    buffers.masked = buffers.masked || material.alphaMode == AlphaMode::Mask;
   }
 
   buffers.positions = gpu::createBufferWith(device, "positions", positions);

@@ -38,7 +38,11 @@ struct SceneBuffers {
   std::vector<Draw> draws;               // opaque first
   std::vector<Bounds> partBoundsW;       // metres
   std::vector<uint32_t> firstTriangles;  // one an instance, in the array of triangles
+  // For shared/lookup_tables.glsl, and numbers that go with them.
+  gpu::Buffer meshRows, idChunks, triangleFacts;
   TriangleIds ids;
+  float endMargin = 0.0f;  // metres
+  bool masked = false;     // some material has holes
   bool instanced = false;  // some matrix is not the identity, or some mesh has two instances
   bool textured = false;   // some material has a texture
 };

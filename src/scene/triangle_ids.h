@@ -23,8 +23,8 @@ struct TriangleIds {
 TriangleIds numberTriangles(const std::vector<uint32_t>& triangleCounts, const std::vector<uint32_t>& firstTriangles,
                             bool instanced);
 
-// Which triangle of which instance an id names, counted within the mesh, as downloadPrimitiveIds() gives them: the first
-// word is 0 for kNoId.
+// Which triangle of which instance an id names, counted within the mesh, as downloadPrimitiveIds() gives them: the
+// first word is 0 for kNoId.
 glsl::PrimitiveId primitiveOf(const TriangleIds& ids, const std::vector<uint32_t>& firstTriangles, uint32_t id);
 
 }  // namespace gnomon

@@ -38,7 +38,7 @@ class VisibilityPass {
  private:
   // Specialization constants of shade_visibility.comp.glsl, in the order of their ids.
   struct VariantKey {
-    int32_t method, diagnose, mapKind, sliceCount, instanced, channels, filter, tapCount;
+    int32_t method, diagnose, mapKind, sliceCount, instanced, channels, filter, tapCount, masked;
     const UserBias* user;
     bool operator==(const VariantKey&) const = default;
   };

@@ -120,8 +120,7 @@ TEST_F(DrawnTriangle, OfPlanarMapsToo) {
   }
 }
 
-// What is drawn by culled ranges, mirrored instances and shared meshes keeps its number; the second layer has that of the
-// triangle whose depth it stores.
+// The second layer names the triangle whose depth it stores.
 TEST_F(DrawnTriangle, OfTheSecondLayerHasItsDepth) {
   for (const char* scene : {"sheets", "contact"}) {
     const test::World world = test::openWorld(device(), openScene(scene));
