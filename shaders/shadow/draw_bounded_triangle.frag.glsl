@@ -39,6 +39,7 @@ void main() {
   drawn.depth = max(mapDepth(map, slice, ray.dir * along), 0.0f);
   drawn.triangle = triangleAndInstance.x;
   drawn.instance = triangleAndInstance.y;
+  drawn.id = triangleId;
   // Of a plane through the light itself, coordinates' rounding (2^-24 of the scene) says where it is met.
   bool ahead = along > map.sceneScale * 2.4e-7f;
   if (!isWithin(distances) || !ahead || !mapHoldsTexelAt(map, gl_FragCoord.xy)) discard;

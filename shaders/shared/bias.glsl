@@ -18,6 +18,7 @@ GNOMON_SHARED_BEGIN
 struct Receiver {
   vec3 posL;
   vec3 normalL;
+  uint id GNOMON_CPP_ONLY(= 0u);  // of its triangle (shared/triangle_ids.glsl), where a bias asks for ids
 };
 
 // The receiver's plane where a ray meets it, as the map stores it. Where the ray does not meet the plane between the

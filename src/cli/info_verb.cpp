@@ -4,6 +4,7 @@
 #include "gpu/device.h"
 #include "gpu/shader_compiler.h"
 #include "lab/compare/results.h"
+#include "scene/adjacency.h"
 #include "scene/generate.h"
 
 #include <memory>
@@ -64,8 +65,12 @@ void printScene(const std::string& name) {
                   placeText(glm::dvec3(bounds.upper) + scene.originW), bounds.diagonal()));
   for (const Mesh& mesh : scene.meshes) {
     const Material& material = scene.materials[mesh.material];
-    say(fmt::format("mesh '{}': {} triangles, {}{}\n", mesh.name, mesh.indices.size() / 3, castsAs(scene, mesh),
-                    material.alphaMode == AlphaMode::Mask ? ", alpha mask" : ""));
+    const Adjacency adjacency = computeAdjacency(mesh.positions, mesh.indices);
+    say(fmt::format("mesh '{}': {} triangles, {}{}; {} connected, {} open edges, {} non-manifold\n", mesh.name,
+                    mesh.indices.size() / 3, castsAs(scene, mesh),
+                    material.alphaMode == AlphaMode::Mask ? ", alpha mask" : "",
+                    adjacency.sheets == 1 ? "1 surface" : fmt::format("{} surfaces", adjacency.sheets),
+                    adjacency.openEdges, adjacency.nonManifoldEdges));
   }
   for (const Light& light : scene.lights)
     say(fmt::format("light '{}': {}\n", light.name, lightText(light, scene.originW)));

@@ -110,6 +110,11 @@ std::vector<float> MapImage::downloadDepth(const gpu::Device& device) const {
   return gpu::downloadAs<float>(device, depth());
 }
 
+std::vector<uint32_t> MapImage::downloadIds(const gpu::Device& device) const {
+  if ((channels_ & glsl::kChannelIds) == 0) return {};
+  return gpu::downloadAs<uint32_t>(device, image(glsl::kChannelIds));
+}
+
 std::vector<float> MapImage::downloadSecondDepth(const gpu::Device& device) const {
   if ((channels_ & glsl::kChannelSecondDepth) == 0) return {};
   return gpu::downloadAs<float>(device, secondDepth());
@@ -187,6 +192,7 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
         if (!wanted(next)) continue;
         for (const SliceCulling::Range& range : shown[next]) {
           push.rangeTriangle = range.firstIndex / 3;
+          push.rangeId = triangleId(scene, scene.draws[next].instance, push.rangeTriangle);
           if (key.needsFragments()) commands.push(drawn, pushed());
           commands.drawIndexed(range.indexCount, 1, range.firstIndex, 0, scene.draws[next].instance);
         }
@@ -211,7 +217,11 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
       const Group group = groupOf(d);
       const int front = group == Group::Sheets ? 0 : group == Group::Solids ? 1 : -1;
       for (const SliceCulling::Range& range : culling.rangesOf(scene, d))
-        pieces.push_back({range.firstIndex / 3, range.indexCount / 3, d.instance, backFaces ? -front : front});
+        pieces.push_back({.firstTriangle = range.firstIndex / 3,
+                          .triangleCount = range.indexCount / 3,
+                          .instance = d.instance,
+                          .firstId = triangleId(scene, d.instance, range.firstIndex / 3),
+                          .facing = backFaces ? -front : front});
     }
     for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
       bounded_.record(commands, scene, slice.map.uniforms(), shaders.bounds, slice.index, batch);
@@ -286,6 +296,7 @@ gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass, Secon
 void MapRenderer::recordSlices(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
                                const LightModel& light, CullMode cull, SecondLayer method, bool multiview) const {
   const int count = multiview ? map.sliceCount() : 1;
+  if (!blends(map.channels())) method = SecondLayer::Peel;
   const auto recordPass = [&](int first, ChannelPass pass) {
     const bool backFaces = pass == ChannelPass::BackFaces;
     const Grouping groupOf = [&](const Draw& draw) {

@@ -61,7 +61,7 @@ FittedMap fit(const MapCase& c) {
 std::vector<int> methodsOn(const Parameterization& map) {
   std::vector<int> methods = {kBiasUser, kNoSuchBias};
   for (const BiasMethod& method : biasMethods())
-    if (map.supportsBias(method)) methods.push_back(method.id);
+    if (map.supportsBias(method) && !method.knowsSurfaces()) methods.push_back(method.id);
   return methods;
 }
 

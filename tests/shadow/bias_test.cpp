@@ -52,7 +52,7 @@ TEST_P(Bias, AdaptiveNeverShadowsAPlaneByItself) {
     params.epsilonAt = epsilonAt;
     size_t acne = 0;
     for (const PlaneCase& c : cases) acne += lit(kBiasAdaptive, fitted_.map, params, c.receiver, c.tap) ? 0 : 1;
-    EXPECT_EQ(acne, 0u) << "epsilon at " << epsilonAtName(epsilonAt);
+    EXPECT_EQ(acne, 0u) << "epsilon at " << kEpsilonAt.text(params);
   }
 }
 
@@ -111,8 +111,10 @@ TEST_P(Bias, AnEmptyTexelLightsWithEveryMethod) {
   for (const MapSample& sample : samplesOf(fitted_, 64, 14)) {
     PlaneCase c = planeCase(fitted_.map, sample, 3.0f, 1.0f);
     c.tap.z1 = 1.0f;
-    for (const BiasMethod& method : biasMethods())
+    for (const BiasMethod& method : biasMethods()) {
+      if (method.knowsSurfaces()) continue;
       EXPECT_TRUE(lit(method.id, fitted_.map, paramsOf(method.name), c.receiver, c.tap)) << method.name;
+    }
   }
 }
 

@@ -59,11 +59,26 @@ Params paramsOf(const Method& method, const Filter& filter, const Parameterizati
   const ChosenFilter chosen = filterFor(choice, filter);
   for (size_t i = 0; i < filter.knobs.size(); ++i)
     params.push_back({filterParamName(filter.knobs[i].name), shortest(chosen.params.knobs[i])});
-  if (bias.takesEpsilonAt) params.push_back({"epsilon_at", epsilonAtName(method.params.epsilonAt)});
+  for (const BiasChoice* way : bias.choices) params.push_back({way->name, way->text(method.params)});
   params.push_back({"map_content", contentName(bias.channels)});
   params.push_back({"cull", cullModeName(choice.cull)});
   for (const Param& param : mapParams(map, fitted, choice.mapOptions)) params.push_back(param);
   return params;
+}
+
+std::optional<Walks> walksOf(const WalkCounts& counts) {
+  if (counts.walks == 0) return std::nullopt;
+  const auto share = [&](int end) { return static_cast<double>(counts.ends[end]) / static_cast<double>(counts.walks); };
+  return Walks{.count = counts.walks,
+               .meanSteps = static_cast<double>(counts.steps) / static_cast<double>(counts.walks),
+               .longest = static_cast<int>(counts.longest),
+               .receiver = share(glsl::kWalkReceiver),
+               .witness = share(glsl::kWalkWitness),
+               .behind = share(glsl::kWalkBehind),
+               .hole = share(glsl::kWalkHole),
+               .open = share(glsl::kWalkOpen),
+               .fold = share(glsl::kWalkFold),
+               .aborted = counts.ends[glsl::kWalkAborted]};
 }
 
 void describe(Row& row, const Entry& entry, const LabelledResult& judged) {
@@ -81,6 +96,7 @@ void describe(Row& row, const Entry& entry, const LabelledResult& judged) {
   row.scored = row.agree + row.acne + row.leak + row.edgeShadow + row.edgeLight + row.uncovered;
   row.grazing = judged.grazing;
   row.edgeOn = judged.edgeOn.size();
+  row.walks = walksOf(judged.walks);
 }
 
 // Everything of one map: its rows, its summary, its pictures.
@@ -292,6 +308,7 @@ void addSums(Comparison& comparison) {
       sum.isSum = true;
       sum.pictures.clear();
       sum.worstAcne = sum.worstLeak = std::nullopt;
+      sum.walks = std::nullopt;
       sum.flip = std::nullopt;
       if (sum.tuning) {  // of the bias each light has its own values; the filter is one for all
         std::erase_if(sum.params, [&](const Param& param) { return sum.isKnob(param) && !isFilterParam(param.name); });

@@ -110,6 +110,31 @@ struct Elsewhere {
   }
 };
 
+// How the walks of `witness` went, over all scored pixels (docs/witness.md).
+struct Walks {
+  size_t count = 0;
+  double meanSteps = 0.0;
+  int longest = 0;
+  double receiver = 0.0, witness = 0.0, behind = 0.0, hole = 0.0, open = 0.0, fold = 0.0;
+  size_t aborted = 0;
+
+  static constexpr auto fields() {
+    const char* share = "share of walks";
+    return std::tuple(
+        field("count", &Walks::count, {.says = "number of walks: one a texel that was asked and holds a triangle"}),
+        field("mean_steps", &Walks::meanSteps, {.says = "triangles entered a walk"}),
+        field("longest", &Walks::longest, {.unit = "steps", .says = "of all"}),
+        field("receiver", &Walks::receiver, {.unit = share, .says = "that came to the receiver's own triangle"}),
+        field("witness", &Walks::witness, {.unit = share, .says = "whose surface shadows the receiver"}),
+        field("behind", &Walks::behind, {.unit = share, .says = "whose surface passes at or behind it"}),
+        field("hole", &Walks::hole, {.unit = share, .says = "whose surface has a hole of its alpha mask there"}),
+        field("open", &Walks::open, {.unit = share, .says = "that came to an open or non-manifold edge"}),
+        field("fold", &Walks::fold, {.unit = share, .says = "that came to an edge where the surface turns back"}),
+        field("aborted", &Walks::aborted,
+              {.says = "number of walks given up after 128 steps, where `two-plane` decided"}));
+  }
+};
+
 // A parameter of a bias (a number with a point), or what else sets the map and the method up.
 struct Param {
   std::string name;
@@ -146,6 +171,7 @@ struct Row {
   std::optional<Tuning> tuning;
   std::optional<Elsewhere> elsewhere;
   std::optional<WorstPlace> worstAcne, worstLeak;
+  std::optional<Walks> walks;
   std::string command;
   Pictures pictures;
 
@@ -274,6 +300,7 @@ struct Row {
         field("elsewhere", &Row::elsewhere, {.says = "of the row that is recommended, else null; below"}),
         field("worst_acne", &Row::worstAcne, {.says = "the square of the picture with the most acne, or null; below"}),
         field("worst_leak", &Row::worstLeak, {.says = "likewise of leak"}),
+        field("walks", &Row::walks, {.says = "of `witness`, else left out; below", .absent = Absent::LeftOut}),
         field("command", &Row::command,
               {.says = "the command line that makes this row again", .absent = Absent::Earlier}),
         field("pictures", &Row::pictures,
