@@ -1,8 +1,8 @@
 #pragma once
-// JSON that nobody vouches for. What is nested deep would overflow the stack of whoever walks it; and ordered_json looks
-// each member up from the beginning, so an object of many takes a time that grows with their square. Both are counted in
-// a pass of its own (SAX): nlohmann's parser with a callback goes through the whole of a list after each of its objects.
-// For files that include nlohmann's header anyway.
+// JSON that nobody vouches for. What is nested deep would overflow the stack of whoever walks it; ordered_json looks
+// each member up from the beginning, so an object of many takes a time that grows with their square. Both are counted
+// in a pass of its own (SAX): nlohmann's parser with a callback goes through the whole of a list after each of its
+// objects. For files that include nlohmann's header anyway.
 
 #include "base/error.h"
 
