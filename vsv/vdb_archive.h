@@ -24,6 +24,12 @@ class CheckedArchive : public openvdb::io::Archive {
  public:
   void writeTo(std::ostream& out, const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& meta) const {
     Archive::write(out, grids, /*seekable=*/true, meta);
+    // A random number, so that no two files are equal; nothing reads it. Behind the magic number, the version of the
+    // format and of the library, and a flag.
+    constexpr std::streamoff kUuidAt = 8 + 4 + 2 * 4 + 1;
+    out.seekp(kUuidAt);
+    out << "00000000-0000-4000-8000-000000000000";
+    out.seekp(0, std::ios::end);
   }
 };
 

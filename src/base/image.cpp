@@ -26,7 +26,8 @@ ImageF readImage(const std::filesystem::path& path) {
 }
 
 Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what) {
-  if (isPng(bytes, size)) return decodePng(bytes, size, what);
+  // The first byte of a PNG, and of no JPEG.
+  if (size > 0 && bytes[0] == 0x89) return decodePng(bytes, size, what);
   return imageCodec().decodeImage(bytes, size, what);
 }
 

@@ -53,9 +53,8 @@ Image8 decodeImageBytes(const uint8_t* bytes, size_t size, const std::string& wh
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  // The name only tells OpenImageIO which reader to try: PNG begins with 0x89, JPEG with 0xff.
-  const bool isPng = size > 0 && bytes[0] == 0x89;
-  auto in = OIIO::ImageInput::open(isPng ? "memory.png" : "memory.jpg", &config);
+  // The name only tells OpenImageIO which reader to try; PNG is image_png.h's.
+  auto in = OIIO::ImageInput::open("memory.jpg", &config);
   if (!in) throw fileError(what, "cannot be decoded as PNG or JPEG", OIIO::geterror());
   const OIIO::ImageSpec spec = in->spec();
   if (spec.width <= 0 || spec.height <= 0 || spec.width > 16384 || spec.height > 16384)

@@ -72,10 +72,6 @@ bool readInto(png_structp png, png_infop info, Image8& image) {
 
 }  // namespace
 
-bool isPng(const uint8_t* bytes, size_t size) {
-  return size >= 8 && png_sig_cmp(bytes, 0, 8) == 0;
-}
-
 Image8 decodePng(const uint8_t* bytes, size_t size, const std::string& what) {
   Source source{.bytes = bytes, .left = size};
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, keepComplaint, ignoreWarning);

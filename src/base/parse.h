@@ -15,9 +15,9 @@ std::optional<glm::dvec3> tryVec3(const std::string& text);
 // The same, as floats hold it. Throws UsageError that names `flag`.
 glm::vec3 parseVec3(const std::string& flag, const std::string& text);
 
-// Coordinates of lights and cameras, and how far they move, are at most this, metres. Rays reach to 1.84e18, Embree's
-// largest float, which a light that moves by as much as it is away must not pass; and at twice that distance, the squared
-// length of three coordinates and a light of ten candela for each square metre of it are below 3.4e38, the largest float.
+// Coordinates of lights and cameras, and how far they move, are at most this, metres. Embree's rays reach to 1.84e18,
+// which a light that has moved as far as it was away must not pass; and at twice that distance the squared length of
+// three coordinates, and a light of ten candela for each square metre of it, are below 3.4e38, the largest float.
 inline constexpr double kFarthestPlace = 5e17;
 // Throws UsageError that names `flag` where a coordinate is farther.
 void checkPlace(const std::string& flag, const glm::dvec3& place);

@@ -1,8 +1,8 @@
 #pragma once
-// JSON that nobody vouches for. What is nested deep would overflow the stack of whoever walks it; and ordered_json looks
-// each member up from the beginning, so that an object of many takes a time that grows with their square. Both are
-// counted in a pass of its own (SAX): nlohmann's parser with a callback goes through the whole of a list after each of
-// its objects. For files that include nlohmann's header anyway.
+// JSON that nobody vouches for. What is nested deep would overflow the stack of whoever walks it; ordered_json looks
+// each member up from the beginning, so an object of many takes a time that grows with their square. Both are counted
+// in a pass of its own (SAX): nlohmann's parser with a callback goes through the whole of a list after each of its
+// objects. For files that include nlohmann's header anyway.
 
 #include "base/error.h"
 
@@ -65,8 +65,8 @@ class JsonCounter final : public nlohmann::json_sax<nlohmann::json> {
 
 }  // namespace detail
 
-// `Json`: nlohmann::json or ordered_json. Throws its exceptions where it is no JSON, and WorldError of the bare complaint
-// where a limit is passed.
+// `Json`: nlohmann::json or ordered_json. Throws its exceptions where it is no JSON, and WorldError of the bare
+// complaint where a limit is passed.
 template <typename Json>
 Json parseJson(std::string_view text, const JsonLimits& limits) {
   detail::JsonCounter counter(limits);

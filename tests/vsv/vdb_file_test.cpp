@@ -152,6 +152,13 @@ TEST_F(VdbFileTest, APathThatCannotBeWrittenIsNamedAndNothingIsLeft) {
   EXPECT_EQ(std::distance(fs::directory_iterator(temporary_.path()), fs::directory_iterator()), 1);
 }
 
+TEST_F(VdbFileTest, TheSameVolumeGivesTheSameBytes) {
+  write(path_);
+  const std::string first = readFile(path_);
+  write(path_);
+  EXPECT_TRUE(readFile(path_) == first);
+}
+
 TEST_F(VdbFileTest, AFullDiskLeavesTheOldFileWhereverItIsFull) {
   test::expectWholeOrOld<WorldError>(path_, [&] { write(path_); });
 }
