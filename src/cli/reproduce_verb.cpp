@@ -48,10 +48,9 @@ Run addReproduce(CLI::App* verb) {
   verb->add_option("--scene", flags->options.scene,
                    "use this glTF file or generated scene, with its first camera and the first light that each map "
                    "supports; default: a scene for each figure");
-  verb->add_option(
-          "--scale", flags->options.scale,
-          "scale factor for the sides of pictures, maps and volumes, for a quick look: 0.05..1; the verdicts are meant "
-          "for 1")
+  verb->add_option("--scale", flags->options.scale,
+                   "scale factor for the sides of pictures, maps and volumes, for a quick look: 0.05..1; the "
+                   "verdicts are meant for 1")
       ->capture_default_str();
   verb->add_option("--repeats", flags->options.repeats, "repetitions of every timed frame; medians are reported")
       ->check(CLI::Range(1, 1000))

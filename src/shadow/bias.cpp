@@ -186,8 +186,7 @@ const std::vector<BiasMethod>& biasMethods() {
        .knobs = {}},
       {.id = glsl::kBiasUnrealVsm,
        .name = "unreal-vsm",
-       .sentence =
-           "Twice the receiver plane's change to the texel, towards the light (Unreal 5's virtual shadow maps).",
+       .sentence = "Twice the receiver plane's change to the texel, towards the light (Unreal 5's virtual maps).",
        .knobs = {}},
       {.id = glsl::kBiasPriorityBuffer,
        .name = "priority-buffer",

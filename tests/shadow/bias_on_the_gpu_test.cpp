@@ -94,10 +94,10 @@ std::optional<Turn> findTurn(const ShadowMap& map, BiasQuery query) {
 // How far from where the CPU's verdict turns the GPU's may turn, in depth.
 //
 // Where a bias subtracts sums that have a factor in common the driver's optimizer takes it out (docs/shared_glsl.md),
-// and the difference rounds otherwise, by ulps of what is subtracted. receiver-plane, normal-offset and what the engines
-// do subtract what two rays say; eevee besides that twice the sum of two changes of its plane's depth, which makes five
-// times as much. Where depth is linear in the radius r, (r - near) / (far - near), slope and the adaptive three subtract
-// such depths. Measured on lavapipe: more than 16 * 2^-24, none beyond 32. Everything else is exact.
+// and the difference rounds otherwise, by ulps of what is subtracted. receiver-plane, normal-offset and what engines do
+// subtract what two rays say; eevee besides that twice the sum of two changes of its plane's depth, which makes five
+// times as much. Where depth is linear in the radius r, (r - near) / (far - near), slope and the adaptive three
+// subtract such depths. Measured on lavapipe: more than 16 * 2^-24, none beyond 32. Everything else is exact.
 //
 // A shadow volume's columns stand on sin, cos and atan2, which turn an angle by up to 8e-6 (epipolar_map_test.cpp).
 float depthTolerance(const ShadowMap& map, int method, bool lavapipe) {

@@ -149,7 +149,7 @@ glm::dvec3 unshadowedLight(const glsl::Medium& medium, const MediaLightSource& l
     const double phase = (1.0 - g * g) / (4.0 * std::numbers::pi * std::pow(x, 1.5));
     return glm::dvec3(medium.sigmaS) * glm::exp(-sigmaT * (s + r)) * glm::dvec3(light.intensity) * phase / (r * r);
   };
-  // Cut where the ray passes the light, so that the peak cannot fall between two samples, and where it crosses the cone.
+  // Cut where the ray passes the light, so that the peak cannot fall between samples, and where it crosses the cone.
   const double peak = std::clamp(glm::dot(light.positionW - eyeW, dir), begin, length);
   std::vector<double> cuts = {begin, peak, length};
   if (light.coneCos > -1.0)

@@ -1,11 +1,11 @@
-// What Blender's EEVEE does without being asked (blender/blender, eevee_shadow_tracing_lib, shadow_normal_offset, and the
-// shadow surface shader's slope bias; read as of 2025):
+// What Blender's EEVEE does by itself (blender/blender: shadow_normal_offset of eevee_shadow_tracing_lib, and the slope
+// bias of the shadow surface shader; as of 2025):
 //
 //   looked up at   P + N r (sin a / cos 0.534 + 0.195)    r: half the diagonal of a texel; a: between N and the light
 //   stored depth   + |dz/du| + |dz/dv|, over a texel
 //
-// Differs: the engine adds the slope of the caster as it draws it. Here it is that of the receiver's plane, which is the
-// same wherever a surface would shadow itself. Its jittered rays and its clipmaps are left out.
+// Differs: the engine adds the slope of the caster as it draws it. Here it is that of the receiver's plane, the same
+// wherever a surface would shadow itself. Its jittered rays and its clipmaps are left out.
 #ifndef GNOMON_BIAS_EEVEE_GLSL
 #define GNOMON_BIAS_EEVEE_GLSL
 

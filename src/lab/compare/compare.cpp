@@ -335,47 +335,6 @@ int stepsPerMap(const CompareOptions& options) {
   return 3 + options.repeats + static_cast<int>(options.biases.size()) + 2 * tunedRows;
 }
 
-void keepLarger(ErrorElsewhere& kept, const ErrorElsewhere& other) {
-  kept.biasError = std::max(kept.biasError, other.biasError);
-  kept.allWrong = std::max(kept.allWrong, other.allWrong);
-  if (other.rmse) kept.rmse = std::max(kept.rmse.value_or(0.0), *other.rmse);
-}
-
-template <typename T>
-void keepLarger(std::optional<T>& kept, const std::optional<T>& other) {
-  if (!kept)
-    kept = other;
-  else if (other)
-    keepLarger(*kept, *other);
-}
-
-// How wrong a row's method is from another camera and on half the map. Of several lights the largest errors.
-Elsewhere elsewhereOf(const Session& session, ShadowPasses& passes, const CompareOptions& options, const Row& row) {
-  const Parameterization& map = **std::ranges::find(options.maps, row.map, &Parameterization::name);
-  const BiasMethod& bias = **std::ranges::find(options.biases, row.bias, &BiasMethod::name);
-  const Filter& filter = **std::ranges::find(options.filters, row.filter, &Filter::name);
-  Elsewhere elsewhere;
-  for (const Light& light : chooseLights(session.setup(), session.tracer(), map)) {
-    const LightOnMap lit(session, passes, map, light, mapSetupOf(options, map));
-    if (lit.receivers().scored == 0) continue;
-    const Elsewhere one = Robustness(lit, options).judge(methodFor(session, options, bias), filterFor(options, filter));
-    keepLarger(elsewhere.otherCamera, one.otherCamera);
-    keepLarger(elsewhere.otherMapSize, one.otherMapSize);
-  }
-  return elsewhere;
-}
-
-// Measures what is recommended, where there is something to choose from.
-void recommend(const Session& session, ShadowPasses& passes, const CompareOptions& options, std::vector<Row>& rows) {
-  if (options.maps.size() * options.biases.size() * options.filters.size() < 2) return;
-  const std::vector<Row> inOrder = ranked(rows);
-  const Row& best = *bestOf(inOrder).untuned;
-  for (Row& row : rows)
-    if (row.map == best.map && row.light == best.light && row.isSum == best.isSum && row.bias == best.bias &&
-        row.filter == best.filter && !row.isTuned())
-      row.elsewhere = elsewhereOf(session, passes, options, row);
-}
-
 }  // namespace
 
 CompareOptions optionsFor(const CompareOptions& options, const Parameterization& map) {
@@ -426,7 +385,7 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   }
   if (comparison.rows.empty()) openLight(session, passes, *options.maps.front(), {});  // says why
   if (severalLights) addSums(comparison);
-  if (options.recommend) recommend(session, passes, options, comparison.rows);
+  if (options.recommend) measureRecommended(session, passes, options, comparison.rows);
   for (Row& row : comparison.rows) {
     row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
     row.command = rowCommand(session.setup(), options, row);

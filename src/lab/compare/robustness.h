@@ -20,8 +20,8 @@ class Robustness {
   Robustness(const LightOnMap& here, const CompareOptions& options);
   ~Robustness();
 
-  // The value that was tuned through this filter there, and the best one there. Where the other camera sees nothing that
-  // faces the light, it is left out.
+  // The value that was tuned through this filter there, and the best one there. Where the other camera sees nothing
+  // that faces the light, it is left out.
   Tuning judge(const TunedMethod& tuned, const ChosenFilter& filter);
 
   // A method as it is, there.
@@ -33,5 +33,9 @@ class Robustness {
   SceneView otherView_;
   std::unique_ptr<Place> otherCamera_, otherMapSize_;
 };
+
+// Sets Row::elsewhere of the best row that is not tuned, where there are several methods to choose from.
+void measureRecommended(const Session& session, ShadowPasses& passes, const CompareOptions& options,
+                        std::vector<Row>& rows);
 
 }  // namespace gnomon
