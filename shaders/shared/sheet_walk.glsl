@@ -65,15 +65,17 @@ GNOMON_FN float lightSide(LookupTables tables, vec3 a, vec3 b, vec3 p) {
 
 GNOMON_FN float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
-// How far the light's ray to p meets a triangle's plane before p, metres along the receiver's normal, may be off by
-// rounding; and what is nearer than the scene's own margin is the receiver's surface in any case.
+// How high over the receiver's plane at p a triangle's point on p's ray must be to shadow p, metres: the scene's own
+// margin, and what floats may be off.
 //
-// Unit roundoff is u = 2^-24, coordinates are at most C in L and O + C in the world, O the origin of L. A coordinate of
-// p is off by 5u (O + C), of weights and sums over the corners of R, and 5u C, of lightFromWorld; a corner of T* by 5u
-// C; so P lies off R's plane and T*'s plane off T* by at most sqrt(3) (5u O + 15u C) together. Side tests are off by
-// 16u C across the edge, and P by what its coordinates are: it may lie so far aside from T* as the light sees it. The
-// triangle's slant turns what is aside into distance along the ray: over the cosine of incidence. The normal is exact
-// (exactNormal), so that slender triangles are no worse than others. In all less than 40u (O + C) (1 + 1 / cosine).
+// Unit roundoff is u = 2^-24; coordinates are at most W in the world, C in L, and O is the origin of L.
+// - p lies off the receiver's plane: a coordinate is off by 5u W, of weights and sums over the corners, and by 5u C, of
+//   lightFromWorld; along a normal sqrt(3) times that. u W is at most an eighth of the scene's margin.
+// - Where the ray meets the triangle is off along the ray: the triangle's corners are off by 9u C along its normal, a
+//   side test by 16u C across its edge, p by 7u (O + C) + 7u C aside, and the triangle's slant turns that into
+//   distance: over the cosine of incidence. As height over the receiver's plane it is less, by the cosine of its own.
+//   The triangle's normal is exact (exactNormal), so that slender triangles are no worse than others.
+const float kPointRounding = 9.0f * 5.9604645e-8f;
 const float kSheetRounding = 40.0f * 5.9604645e-8f;
 
 GNOMON_FN float sheetRounding(LookupTables tables, vec3 a, vec3 b, vec3 c, vec3 p) {
@@ -81,8 +83,9 @@ GNOMON_FN float sheetRounding(LookupTables tables, vec3 a, vec3 b, vec3 c, vec3 
   return kSheetRounding * (largestOf(tables.frame.originW) + inL);
 }
 
-GNOMON_FN float sheetMargin(LookupTables tables, float rounding, float cosine) {
-  return tables.endMargin + rounding * (1.0f + 1.0f / cosine);
+// `slant`: the cosine of the light's incidence on the receiver, over that on the triangle.
+GNOMON_FN float sheetMargin(LookupTables tables, vec3 p, float rounding, float slant) {
+  return 2.1f * tables.endMargin + kPointRounding * largestOf(p) + rounding * slant;
 }
 
 // Unit, away from the light.
@@ -148,11 +151,13 @@ GNOMON_FN SheetCover coverOf(LookupTables tables, SheetTriangle triangle, vec3 s
   if (sides.z > max(sides.x, sides.y)) corner = triangle.c;
   float along = dot(triangle.normal, corner - p) / approach;  // negative towards the light
   float cosine = abs(approach) / sqrt(dot(triangle.normal, triangle.normal));
-  float height = dot(normalL, dir) * along;
+  float facing = dot(normalL, dir);
+  float height = facing * along;
+  float rounding = sheetRounding(tables, triangle.a, triangle.b, triangle.c, p);
   SheetCover cover;
   cover.posL = p + dir * along;
   // False of what has no plane, too.
-  cover.before = height > sheetMargin(tables, sheetRounding(tables, triangle.a, triangle.b, triangle.c, p), cosine);
+  cover.before = height > sheetMargin(tables, p, rounding, abs(facing) / cosine);
   return cover;
 }
 
@@ -163,7 +168,6 @@ GNOMON_FN bool twoPlanesLight(LookupTables tables, SheetTriangle triangle, vec3 
   float doubleArea = sqrt(dot(triangle.normal, triangle.normal));
   if (!(doubleArea > 0.0f)) return true;
   vec3 normal = triangle.normal * (1.0f / doubleArea);
-  float cosine = abs(dot(normal, lightDirection(tables, q)));
   float rounding = sheetRounding(tables, triangle.a, triangle.b, triangle.c, p);
   vec3 ab = triangle.b - triangle.a;
   vec3 bc = triangle.c - triangle.b;
@@ -171,7 +175,7 @@ GNOMON_FN bool twoPlanesLight(LookupTables tables, SheetTriangle triangle, vec3 
   float longest = sqrt(max(max(dot(ab, ab), dot(bc, bc)), dot(ca, ca)));
   vec3 out_ = p - triangle.a;
   float drawnOut = 1.0f + sqrt(dot(out_, out_)) * longest / doubleArea;
-  return dot(normalL, q - p) <= sheetMargin(tables, rounding, cosine) ||
+  return dot(normalL, q - p) <= sheetMargin(tables, p, rounding, 1.0f) ||
          dot(normal, p - triangle.a) >= -(tables.endMargin + rounding * drawnOut);
 }
 

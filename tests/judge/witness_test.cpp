@@ -50,7 +50,7 @@ TEST_F(Witness, HasNoAcneAnywhere) {
         return map.lit.receivers().scored - judged.labels.count(Label::Agree);
       };
       if (kind.exact) {
-        EXPECT_LE(wrong(witness), wrong(adaptive) / 4) << what;
+        EXPECT_LE(wrong(witness), wrong(adaptive) / 2) << what;
       }
       EXPECT_EQ(witness.walks.ends[glsl::kWalkAborted], 0u) << what;
     }
