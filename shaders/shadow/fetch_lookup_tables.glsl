@@ -8,12 +8,15 @@
 
 #include "scene/alpha_mask.glsl"
 
-layout(scalar, binding = kBindMeshRows) readonly buffer MeshRows { MeshRow meshRows[]; };
+layout(binding = kBindMeshRows) uniform utextureBuffer meshRows;
 layout(scalar, binding = kBindIdChunks) readonly buffer IdChunks { IdChunk idChunks[]; };
 layout(scalar, binding = kBindTriangleFacts) readonly buffer Facts { TriangleFacts facts[]; };
 layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
 
-MeshRow meshRow(LookupTables tables, uint row) { return meshRows[row]; }
+MeshRow meshRow(LookupTables tables, uint row) {
+  uvec4 texel = texelFetch(meshRows, int(row));
+  return MeshRow(uintBitsToFloat(texel.xyz), texel.w);
+}
 mat4 worldFromMesh(LookupTables tables, uint instance) { return instances[instance].worldFromMesh; }
 IdChunk idChunkAt(LookupTables tables, uint chunk) { return idChunks[chunk]; }
 TriangleFacts triangleFacts(LookupTables tables, uint triangle) { return facts[triangle]; }

@@ -5,8 +5,8 @@
 //      edge 1  /   \  edge 0
 //             /     \                  link = neighbour << 3 | turned << 2 | the neighbour's row opposite to the edge
 //     corner 0-------corner 1
-//              edge 2                  turned: the neighbour winds the other way round. kNoLink where the edge is open or
-//                                      belongs to more than two triangles.
+//              edge 2                  turned: the neighbour winds the other way round. kNoLink where the edge is
+//                                      open or belongs to more than two triangles.
 #ifndef GNOMON_LINKED_MESH_GLSL
 #define GNOMON_LINKED_MESH_GLSL
 

@@ -17,7 +17,7 @@
 GNOMON_SHARED_BEGIN
 
 // Tables that a scene has for them, beside those of shared/scene.glsl.
-const int kBindMeshRows = 19;       // MeshRow[], three a triangle
+const int kBindMeshRows = 19;       // a texel buffer of MeshRow[], three a triangle: lavapipe fetches that faster
 const int kBindIdChunks = 20;       // IdChunk[]
 const int kBindTriangleFacts = 21;  // TriangleFacts[]
 

@@ -66,11 +66,11 @@ void printScene(const std::string& name) {
   for (const Mesh& mesh : scene.meshes) {
     const Material& material = scene.materials[mesh.material];
     const Adjacency adjacency = computeAdjacency(mesh.positions, mesh.indices);
-    say(fmt::format("mesh '{}': {} triangles, {}{}; {} connected, {} open edges, {} non-manifold\n", mesh.name,
-                    mesh.indices.size() / 3, castsAs(scene, mesh),
-                    material.alphaMode == AlphaMode::Mask ? ", alpha mask" : "",
-                    adjacency.sheets == 1 ? "1 surface" : fmt::format("{} surfaces", adjacency.sheets),
-                    adjacency.openEdges, adjacency.nonManifoldEdges));
+    say(fmt::format(
+        "mesh '{}': {} triangles, {}{}; {}, {} open edges, {} non-manifold\n", mesh.name, mesh.indices.size() / 3,
+        castsAs(scene, mesh), material.alphaMode == AlphaMode::Mask ? ", alpha mask" : "",
+        adjacency.sheets == 1 ? "1 connected surface" : fmt::format("{} connected surfaces", adjacency.sheets),
+        adjacency.openEdges, adjacency.nonManifoldEdges));
   }
   for (const Light& light : scene.lights)
     say(fmt::format("light '{}': {}\n", light.name, lightText(light, scene.originW)));

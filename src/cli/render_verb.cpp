@@ -54,7 +54,8 @@ Run addRender(CLI::App* verb) {
   verb->add_option("-o,--out", flags->out, "the picture: .png (8 bits, for viewing) or .exr (linear data)")->required();
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
-                   "layer-gap (second depth - first) or texel-density (texels per square metre)")
+                   "layer-gap (second depth - first), ids (the triangle each texel of the map sees) or texel-density "
+                   "(texels per square metre)")
       ->check(oneOf(picturesToShow()))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };

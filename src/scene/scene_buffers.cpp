@@ -104,7 +104,10 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
   }
   std::ranges::stable_sort(buffers.draws, {}, &Draw::masked);
   const MeshLinks links = linkMeshes(scene, buffers.instanced);
-  buffers.meshRows = gpu::createBufferWith(device, "mesh rows", links.rows);
+  // Where they do not fit there are none: VisibilityPass says so to who needs them.
+  const bool fit = links.rows.size() <= device.info().maxTexelBufferElements;
+  buffers.meshRows = gpu::createTexelsWith(device, "mesh rows", VK_FORMAT_R32G32B32A32_UINT,
+                                           fit ? links.rows : std::vector<glsl::MeshRow>());
   buffers.triangleFacts = gpu::createBufferWith(device, "triangle facts", links.facts);
   buffers.endMargin = receiverMargin(scene);
   buffers.ids = numberTriangles(triangleCounts, buffers.firstTriangles, buffers.instanced);

@@ -39,7 +39,7 @@ struct SceneBuffers {
   std::vector<Bounds> partBoundsW;       // metres
   std::vector<uint32_t> firstTriangles;  // one an instance, in the array of triangles
   // For shared/lookup_tables.glsl, and numbers that go with them.
-  gpu::Buffer meshRows, idChunks, triangleFacts;
+  gpu::Buffer meshRows, idChunks, triangleFacts;  // the first a texel buffer; of one row where the scene has too many
   TriangleIds ids;
   float endMargin = 0.0f;  // metres
   bool masked = false;     // some material has holes

@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace gnomon {
 
 namespace {
@@ -91,6 +93,12 @@ void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, 
                             const MapImage& map, const BiasMethod& method, bool diagnose, const ChosenFilter& filter) {
   GNOMON_CHECK(!diagnose || filter.id == glsl::kShadowFilterNone);
   GNOMON_CHECK_EQ(method.channels & ~map.channels(), 0);
+  if (method.knowsSurfaces() &&
+      scene.meshRows.size() < scene.triangles.size() / sizeof(uint32_t) * sizeof(glsl::MeshRow))
+    throw WorldError(fmt::format(
+        "--biases {}: the device's texel buffers hold {} rows, and the scene has {}, three a triangle; choose "
+        "another bias",
+        method.name, device_.info().maxTexelBufferElements, scene.triangles.size() / sizeof(uint32_t)));
   const VisibilityPush push{.filter = filter.params, .endMargin = scene.endMargin, .idShift = scene.ids.shift};
   std::vector<gpu::Binding> bindings = {
       {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},

@@ -1,8 +1,8 @@
 // Two planes: a receiver is in shadow only where both the receiver's plane and the caster's say so.
 //
-//   adaptive's test (Dou et al. 2014) extends the receiver's plane to the texel's ray: wrong in a valley, where the plane
-//   passes below the surface that the texel sees. Its mirror extends the caster's plane to the receiver's ray: wrong on a
-//   ridge. On a crease of two planes one of the two is always right, and light is what it says:
+// adaptive's test (Dou et al. 2014) extends the receiver's plane to the texel's ray: wrong in a valley, where the plane
+// passes below the surface that the texel sees. Its mirror extends the caster's plane to the receiver's ray: wrong on a
+// ridge. On a crease of two planes one of the two is always right, and light is what it says:
 //
 //     lit  <=>  the texel's point lies not before the receiver's plane,  or  P lies not behind the caster's plane
 //
@@ -20,37 +20,12 @@ GNOMON_SHARED_BEGIN
 // A point of the texel's ray, as lightSide() takes it.
 GNOMON_FN vec3 alongRay(LookupTables tables, Ray ray) { return tables.positional == 1.0f ? ray.dir : ray.origin; }
 
-// The margin of the caster's plane at p: it is known at the triangle, whose corners are off by rounding, and drawn out to p
-// its angle's error, a corner's over the triangle's least height, counts with the distance. For the rest see
-// sheetMargin().
-GNOMON_FN float planeMargin(LookupTables tables, vec3 a, vec3 b, vec3 c, vec3 p, float doubleArea) {
-  vec3 ab = b - a;
-  vec3 bc = c - b;
-  vec3 ca = a - c;
-  float longest = sqrt(max(max(dot(ab, ab), dot(bc, bc)), dot(ca, ca)));
-  vec3 out_ = p - a;
-  float coordinate = largestOf(tables.frame.originW) + max(max(largestOf(a), largestOf(b)), max(largestOf(c), largestOf(p)));
-  return tables.endMargin + kSheetRounding * coordinate * (1.0f + sqrt(dot(out_, out_)) * longest / doubleArea);
-}
-
 GNOMON_FN bool twoPlaneLit(LookupTables tables, Receiver receiver, PlacedTriangle caster, Ray ray) {
-  mat4 fromMesh = placeOf(tables, caster.instance);
-  vec3 a = cornerInL(tables, fromMesh, meshRow(tables, 3u * caster.triangle).corner);
-  vec3 b = cornerInL(tables, fromMesh, meshRow(tables, 3u * caster.triangle + 1u).corner);
-  vec3 c = cornerInL(tables, fromMesh, meshRow(tables, 3u * caster.triangle + 2u).corner);
-  vec3 scaled = exactNormal(a, b, c);
-  float doubleArea = sqrt(dot(scaled, scaled));
-  float area = lightSide(tables, a, b, c);
-  if (!(doubleArea > 0.0f) || area == 0.0f) return true;
-  vec3 q = area > 0.0f ? clampedToTriangle(tables, a, b, c, alongRay(tables, ray))
-                       : clampedToTriangle(tables, a, c, b, alongRay(tables, ray));
-  float before = dot(receiver.normalL, q - receiver.posL);
-  vec3 normal = scaled * (1.0f / doubleArea);
-  float cosine = abs(dot(normal, lightDirection(tables, q)));
-  if (before <= sheetMargin(tables, a, b, c, q, cosine)) return true;
-  float lightSideOf = tables.positional == 1.0f ? -dot(normal, a) : normal.z;
-  if (lightSideOf < 0.0f) normal = -normal;
-  return dot(normal, receiver.posL - a) >= -planeMargin(tables, a, b, c, receiver.posL, doubleArea);
+  SheetTriangle triangle = sheetTriangle(tables, caster);
+  float area = lightSide(tables, triangle.a, triangle.b, triangle.c);
+  if (area == 0.0f) return true;
+  vec3 q = clampedToTriangle(tables, triangle, alongRay(tables, ray), area < 0.0f ? -1.0f : 1.0f);
+  return twoPlanesLight(tables, triangle, q, receiver.posL, receiver.normalL);
 }
 
 // The texel beside another, in whatever slice; held where there is one and something is drawn in it.
@@ -85,9 +60,9 @@ GNOMON_FN bool isBehindDepths(DepthPoint center, DepthPoint beside, DepthPoint a
   return dot(normal, p - center.posL) / facing > error;
 }
 
-// How far off a stored depth may be: a few 2^-24 of the range, and the rasterizer's plane equation, whose products are as
-// large as the plane's change across the whole slice (tests/omni/rendered_slices_test.cpp measures it). The plane at P
-// is a mean of three depths, with weights of at most 1, 1/2 and 1/2 in size: twice one depth's error.
+// How far off a stored depth may be: a few 2^-24 of the range, and the rasterizer's plane equation, whose products are
+// as large as the plane's change across the whole slice (tests/omni/rendered_slices_test.cpp measures it). The plane at
+// P is a mean of three depths, with weights of at most 1, 1/2 and 1/2 in size: twice one depth's error.
 GNOMON_FN float depthRounding(ShadowMap map, float z, float beside, float above) {
   float change = abs(beside - z) + abs(above - z);
   return 2.0f * 5.9604645e-8f * (16.0f + 4.0f * change * float(max(map.width, map.height)));
@@ -104,8 +79,11 @@ GNOMON_FN bool twoPlaneDepthLit(ShadowMap map, LookupTables tables, Receiver rec
   DepthPoint below = depthPointAt(map, tables, tap.slice, ivec2(tap.texel.x, tap.texel.y + 1), receiver.posL);
   PlaneDepth own = receiverPlaneDepth(map, tap.slice, receiver, tap.ray);
   float slope = mapDepthSlope(map, tap.slice, center.posL, tap.ray.dir);
-  float rounding = max(depthRounding(map, tap.z1, left.held ? left.depth : tap.z1, above.held ? above.depth : tap.z1),
-                       depthRounding(map, tap.z1, right.held ? right.depth : tap.z1, below.held ? below.depth : tap.z1));
+  float zLeft = left.held ? left.depth : tap.z1;
+  float zRight = right.held ? right.depth : tap.z1;
+  float zAbove = above.held ? above.depth : tap.z1;
+  float zBelow = below.held ? below.depth : tap.z1;
+  float rounding = max(depthRounding(map, tap.z1, zLeft, zAbove), depthRounding(map, tap.z1, zRight, zBelow));
   if (own.depth - rounding <= tap.z1) return true;
   float error = tables.endMargin + rounding / slope;
   return !(isBehindDepths(center, left, above, tap.ray.dir, receiver.posL, error) &&
