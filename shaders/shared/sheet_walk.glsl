@@ -179,6 +179,15 @@ GNOMON_FN bool twoPlanesLight(LookupTables tables, SheetTriangle triangle, vec3 
          dot(normal, p - triangle.a) >= -(tables.endMargin + rounding * drawnOut);
 }
 
+// The same for a walk that is given up, without a margin for the plane drawn out: it is asked for at every beginning,
+// and in full would be half of the pass.
+GNOMON_FN bool bothPlanesLight(LookupTables tables, SheetTriangle triangle, vec3 q, vec3 p, vec3 normalL) {
+  float margin = 2.1f * tables.endMargin + kPointRounding * largestOf(p);
+  float behind = -dot(triangle.normal, p - triangle.a);
+  bool isBehind = behind > 0.0f && behind * behind > margin * margin * dot(triangle.normal, triangle.normal);
+  return dot(normalL, q - p) <= margin || !isBehind;
+}
+
 // Whether the surface, where the walk leaves a triangle over the edge from x to y, has come down to the plane of the
 // receiver at `target`. The height over a plane is straight between two edges.
 GNOMON_FN bool meetsPlane(LookupTables tables, vec3 x, vec3 y, vec3 from, vec3 target, vec3 normalL) {
@@ -214,7 +223,7 @@ GNOMON_FN SheetWalk walkOn(LookupTables tables, SheetWalk walk, vec3 along, vec3
   if (begins) {
     next.turn = area < 0.0f ? -1 : 1;
     next.from = clampedToTriangle(tables, triangle, along, float(next.turn));
-    next.planesLit = twoPlanesLight(tables, triangle, next.from, target, normalL);
+    next.planesLit = bothPlanesLight(tables, triangle, next.from, target, normalL);
   }
   float turn = float(next.turn);
   vec3 sides = sideTests(tables, triangle, target, turn);

@@ -1,5 +1,5 @@
-// Priority buffer: the map stores what a texel sees instead of how far it is, and a receiver is lit where that is itself.
-// Hourcade, Nicolas, "Algorithms for Antialiased Cast Shadows", Computers & Graphics 9(3), 1985.
+// Priority buffer: the map stores what a texel sees instead of how far it is, and a receiver is lit where that is
+// itself. Hourcade, Nicolas, "Algorithms for Antialiased Cast Shadows", Computers & Graphics 9(3), 1985.
 //
 //   priority-buffer  lit where the texel holds the receiver's own number, else in shadow
 //   priority-depth   lit there, and where the numbers differ as depth says, without a bias
