@@ -1,6 +1,6 @@
 #pragma once
-// The part of the glTF loader that calls libdraco, in a library of its own that is loaded when the first compressed mesh
-// is read: Debian's libdraco brings a tinygltf of another layout under the same names. For gltf_draco.cpp only.
+// The part of the glTF loader that calls libdraco, in a library of its own, loaded when the first compressed mesh is
+// read: Debian's libdraco brings a tinygltf of another layout under the same names. For gltf_draco.cpp only.
 
 #include <cstddef>
 #include <cstdint>

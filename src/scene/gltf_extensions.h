@@ -16,7 +16,7 @@ enum class ExtensionUse {
   Read,      // honoured in full
   Harmless,  // passed over: it cannot change a shadow
   Told,      // passed over, but a shadow may differ for it: `sentence` says how
-  Fallback,  // a texture of a kind that Gnomon does not decode: its fallback, or a flat colour, is told where it is used
+  Fallback,  // a texture of a kind that Gnomon does not decode; told where it is used without a PNG or JPEG
   Refused,   // `sentence` is the remedy
 };
 

@@ -225,8 +225,8 @@ class GeometryLoader {
   }
 
   // Floats far from zero are too coarse for shadows. A scene that lies four times its size or more from the file's
-  // origin gets one of its own, a multiple of a power of two: where the file's coordinates are exact they stay so, and no
-  // coordinate has lost more than three of its bits.
+  // origin gets one of its own, a multiple of a power of two: where the file's coordinates are exact they stay so, and
+  // no coordinate has lost more than three of its bits.
   void chooseOrigin(const std::vector<PlacedNode>& nodes) {
     glm::dvec3 lower(std::numeric_limits<double>::max()), upper(std::numeric_limits<double>::lowest());
     for (const PlacedNode& placed : nodes) {

@@ -114,7 +114,8 @@ TEST(GltfExtensions, GpuInstancesAreEachPlaced) {
   }
 }
 
-// Two triangles that draco::Encoder packed, positions quantized to 16 bits: (0 0 0, 4 0 0, 0 4 0), (4 0 0, 4 4 2, 0 4 0).
+// Two triangles that draco::Encoder packed, positions quantized to 16 bits: (0 0 0, 4 0 0, 0 4 0) and
+// (4 0 0, 4 4 2, 0 4 0).
 constexpr const char* kDracoQuad =
     "RFJBQ08CAgEBAAAABAIAAgAAAR//AREB/wAAAQAJAwAAAgEBAQARAwEgARAzARADADCQSgAAAgD+/wEAAAAA//8AAAAAAAAAAAAAAAAAAAAAgEAQ";
 constexpr size_t kDracoBytes = 84;
