@@ -51,6 +51,7 @@ GNOMON_SHARED_END
 #include "shared/bias/dual_layer.glsl"
 #include "shared/bias/eevee.glsl"
 #include "shared/bias/godot.glsl"
+#include "shared/bias/moved_lookup.glsl"
 #include "shared/bias/none.glsl"
 #include "shared/bias/normal_offset.glsl"
 #include "shared/bias/receiver_plane.glsl"

@@ -7,6 +7,7 @@
 #include "cli/scene_flags.h"
 #include "cli/verbs.h"
 #include "lab/compare/render_picture.h"
+#include "lab/core/maps.h"
 
 #include <cstdio>
 #include <memory>
@@ -23,13 +24,23 @@ struct RenderFlags {
   MethodFlags method;
   std::string out;
   std::string show = "beauty";
+  const CLI::Option* biases = nullptr;
 };
+
+// A volume stores no triangles: there the default is the best that depth alone allows.
+MethodFlags methodOf(const RenderFlags& flags) {
+  MethodFlags method = flags.method;
+  const auto maps = parseMaps(method.map.maps);
+  if (flags.biases->count() == 0 && !maps.front()->supportsBias(findBias(kDefaultBias)))
+    method.bias.biases = "adaptive";
+  return method;
+}
 
 int runRender(const RenderFlags& flags) {
   const std::string extension = std::filesystem::path(flags.out).extension().string();
   if (extension != ".png" && extension != ".exr" && !isStream(flags.out))
     throw UsageError(fmt::format("-o {}: the name must end in .png or .exr", flags.out));
-  CompareOptions options = compareOptions(flags.method);
+  CompareOptions options = compareOptions(methodOf(flags));
   if (options.biases.size() > 1 && !options.userBiases.empty())
     options.biases.erase(options.biases.begin(), options.biases.end() - 1);  // a file given is the bias meant
   if (options.maps.size() != 1 || options.biases.size() != 1 || options.filters.size() != 1)
@@ -51,6 +62,7 @@ Run addRender(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
   addSceneFlags(*verb, flags->scene);
   addMethodFlags(*verb, flags->method, "spot", kDefaultBias);
+  flags->biases = verb->get_option("--biases");
   verb->add_option("-o,--out", flags->out, "the picture: .png (8 bits, for viewing) or .exr (linear data)")->required();
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "

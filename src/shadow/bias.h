@@ -46,7 +46,7 @@ struct BiasMethod {
 };
 
 // The best one that needs nobody to choose a parameter: what `gnomon render` draws with unless told otherwise.
-inline constexpr const char* kDefaultBias = "adaptive";
+inline constexpr const char* kDefaultBias = "witness";
 
 // In the order they are listed and run.
 const std::vector<BiasMethod>& biasMethods();

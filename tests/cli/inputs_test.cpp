@@ -164,7 +164,7 @@ TEST_F(InputsTest, ALightIsNamedByPathNumberOrPlace) {
   // Moved or not, a light keeps its power.
   const auto radiance = [&](const std::string& flags, const std::string& name) {
     const test::Result result =
-        run("fog '" + scene.string() + "' --size 32 --vsv-size 32x32x32 --quiet -o @/" + name + ".exr " + flags);
+        run("fog '" + scene.string() + "' --size 32 --vsv-size 64x64x128 --quiet -o @/" + name + ".exr " + flags);
     EXPECT_EQ(result.exitCode, 0) << result.err;
     return readFile(folder_ / (name + ".exr"));
   };

@@ -33,29 +33,30 @@ const Row* findRow(const Comparison& comparison, const std::string& map, const s
   return nullptr;
 }
 
-// "120 / 40 wrong pixels = 3.00", or of filtered rows their RMSE.
+// How many times as wrong the rival is, by acne and leak, or of filtered rows by RMSE.
 std::string factorText(const Row& rival, const Row& row) {
   const bool filtered = row.isFiltered();
   const double theirs = filtered ? rival.rmse : static_cast<double>(rival.acne + rival.leak);
   const double mine = filtered ? row.rmse : static_cast<double>(row.acne + row.leak);
-  const std::string factor = mine > 0.0     ? fmt::format("{:.2f}", theirs / mine)
-                             : theirs > 0.0 ? std::string("infinite")
-                                            : std::string("1 (both none)");
-  return filtered ? fmt::format("RMSE {:.4f} / {:.4f} = {}", theirs, mine, factor)
-                  : fmt::format("{:.0f} / {:.0f} wrong pixels = {}", theirs, mine, factor);
+  return mine > 0.0 ? fmt::format("{:.2f}", theirs / mine) : theirs > 0.0 ? "infinite" : "1, both none";
 }
 
-// "cube adaptive against the tuned constant: 120 / 40 wrong pixels = 3.00". More than 1: better.
+std::string errorText(const Row& row) {
+  return row.isFiltered() ? fmt::format("RMSE {:.4f}", row.rmse) : fmt::format("{} wrong pixels", row.acne + row.leak);
+}
+
+// "cube: adaptive 40 wrong pixels, tuned constant 120 wrong pixels (factor 3.00)". More than 1: better.
 std::string factorLines(const Comparison& comparison, const std::string& map, const std::string& filter) {
   std::string text;
-  for (const char* bias : {"dual", kDefaultBias}) {
+  for (const char* bias : {"dual", "adaptive", kDefaultBias}) {
     for (const bool tuned : {false, true}) {
       const Row* row = findRow(comparison, map, filter, bias, tuned);
       for (const char* rivalName : {"constant", "slope"}) {
         const Row* rival = findRow(comparison, map, filter, rivalName, true);
         if (row == nullptr || rival == nullptr) continue;
-        text += fmt::format("{} {}{} against the tuned {}: {}\n", map, biasText(*row),
-                            row->isFiltered() ? ", " + filter + "," : "", rivalName, factorText(*rival, *row));
+        text += fmt::format("{}: {}{} {}, tuned {} {} (factor {})\n", map, biasText(*row),
+                            row->isFiltered() ? ", " + filter + "," : "", errorText(*row), rivalName, errorText(*rival),
+                            factorText(*rival, *row));
       }
     }
   }
