@@ -31,7 +31,7 @@ int runRender(const RenderFlags& flags) {
     options.biases.erase(options.biases.begin(), options.biases.end() - 1);  // a file given is the bias meant
   if (options.maps.size() != 1 || options.biases.size() != 1 || options.filters.size() != 1)
     throw UsageError("render draws one configuration: give one --maps, one --biases and one --filters");
-  preloadImages();
+  if (extension == ".exr") preloadImages();
   const Session session = openSession(flags.scene);
   const RenderedPicture picture = renderPicture(session, options, flags.show);
   if (!picture.note.empty()) std::fprintf(stderr, "gnomon: %s\n", picture.note.c_str());
