@@ -149,4 +149,22 @@ std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, 
   return bias;
 }
 
+namespace {
+
+constexpr const char* kUserPath = "shared/bias/user.glsl";
+
+}  // namespace
+
+gpu::ShaderSource shaderWith(const char* path, const UserBias* bias) {
+  if (bias == nullptr) return {path, {}};
+  return {path, {{kUserPath, bias->source}, {"shared/bias/user_knobs.glsl", bias->knobsGlsl}}};
+}
+
+// The compiler knows the file by the name it takes the place of.
+std::string inUsersWords(std::string message, const UserBias& bias) {
+  for (size_t at = 0; (at = message.find(kUserPath, at)) != std::string::npos; at += bias.path.size())
+    message.replace(at, std::string_view(kUserPath).size(), bias.path);
+  return message;
+}
+
 }  // namespace gnomon

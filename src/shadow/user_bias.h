@@ -15,6 +15,8 @@
 
 #include "shadow/bias.h"
 
+#include "gpu/shader_compiler.h"
+
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -34,6 +36,11 @@ struct UserBias {
 std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path);
 // The same of a text; `path` is what complaints name.
 std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source);
+
+// A shader of ours with the user's bias in its place; as it is where there is none.
+gpu::ShaderSource shaderWith(const char* path, const UserBias* bias);
+// What the compiler said of it, with the user's file named as the user wrote it.
+std::string inUsersWords(std::string message, const UserBias& bias);
 
 // "max-offset" -> "kUserMaxOffset".
 std::string knobConstant(const std::string& knob);

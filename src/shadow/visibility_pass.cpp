@@ -21,18 +21,11 @@ VkDeviceSize pixelBytes(int width, int height, size_t each) {
 
 gpu::ComputeProgram createProgram(const gpu::Device& device, const UserBias* user,
                                   const std::vector<gpu::Specialization>& constants) {
-  constexpr const char* kShader = "shadow/shade_visibility.comp.glsl";
-  if (user == nullptr) return {device, {kShader, {}}, constants};
-  constexpr std::string_view kUserPath = "shared/bias/user.glsl";
   try {
-    return {device,
-            {kShader, {{std::string(kUserPath), user->source}, {"shared/bias/user_knobs.glsl", user->knobsGlsl}}},
-            constants};
-  } catch (const WorldError& error) {  // the compiler knows the file by the name it takes the place of
-    std::string message = error.what();
-    for (size_t at = 0; (at = message.find(kUserPath, at)) != std::string::npos; at += user->path.size())
-      message.replace(at, kUserPath.size(), user->path);
-    throw WorldError(message);
+    return {device, shaderWith("shadow/shade_visibility.comp.glsl", user), constants};
+  } catch (const WorldError& error) {
+    if (user == nullptr) throw;
+    throw WorldError(inUsersWords(error.what(), *user));
   }
 }
 
