@@ -1,10 +1,11 @@
 #pragma once
 // The frame pass: what the camera sees, its visibility by one map, bias and filter, and its shaded colour, in one draw
-// of the scene. For a picture of one method. Where several methods or diagnoses are wanted, the G-buffer is drawn once
-// and VisibilityPass and RadiancePass look it up; both give each pixel the same receiver and the same verdict.
+// of the scene after its depth. For a picture of one method. Where several methods or diagnoses are wanted, the G-buffer
+// is drawn once and VisibilityPass and RadiancePass look it up; both give each pixel the same receiver, but for its last
+// bits, and so the same verdict (shared/plane_view.glsl).
 //
-// A triangle's corners are read once for all its pixels, and what a draw has in common comes as push constants: on
-// lavapipe most of those two passes' time goes into reading the same tables once a pixel.
+// A triangle's plane is found once for all its pixels, and what a draw has in common comes as push constants: on
+// lavapipe half of those two passes' time goes into reading the same tables once a pixel.
 
 #include "shadow/bias.h"
 #include "shadow/filter.h"
@@ -19,8 +20,8 @@ class FramePass {
  public:
   FramePass(const gpu::Device& device, int width, int height);
 
-  // Uploads `shade` (shadeUniforms in visibility_pass.h), so one recording at a time. Compiles its pipelines on first use; throws WorldError
-  // that names a user's file and line where that does not compile.
+  // Uploads `shade` (shadeUniforms in visibility_pass.h), so one recording at a time. Compiles its pipelines on first
+  // use; throws WorldError that names a user's file and line where that does not compile.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const MapImage& map, const BiasMethod& method,
               const ChosenFilter& filter, const glsl::ShadeUniforms& shade);
 
