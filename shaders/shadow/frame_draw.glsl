@@ -29,8 +29,9 @@ layout(constant_id = 4) const int kInstanced = 1;  // 0: every mesh stands in wo
 #else
 #define GNOMON_FRAME_VARYING in
 #endif
-layout(location = 0) GNOMON_FRAME_VARYING flat vec4 normalAndHeight;  // PlaneView, of a normal turned to the light
-layout(location = 1) GNOMON_FRAME_VARYING flat vec3 reachAndFacing;  // nearest, farthest, 1 where eye and light see one side
+// PlaneView, of a normal turned to the light: normal, height; nearest, farthest; 1 where eye and light see one side.
+layout(location = 0) GNOMON_FRAME_VARYING flat vec4 normalAndHeight;
+layout(location = 1) GNOMON_FRAME_VARYING flat vec3 reachAndFacing;
 layout(location = 2) GNOMON_FRAME_VARYING vec3 smoothNormalL;        // any length
 layout(location = 3) GNOMON_FRAME_VARYING vec2 uv;
 

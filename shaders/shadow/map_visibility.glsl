@@ -1,6 +1,6 @@
-// The part of a pixel's visibility that does not ask where its receiver comes from: receiver -> taps -> how much of them
-// is lit. The including shader declares `shade` and `filterParams`, and before shared/map.glsl the constants kMethod,
-// kDiagnose and kMapKind.
+// The part of a pixel's visibility that does not ask where its receiver comes from: receiver -> taps -> how much of
+// them is lit. The including shader declares `shade` and `filterParams`, and before shared/map.glsl the constants
+// kMethod, kDiagnose and kMapKind.
 #ifndef GNOMON_MAP_VISIBILITY_GLSL
 #define GNOMON_MAP_VISIBILITY_GLSL
 

@@ -57,7 +57,8 @@ SurfaceLight lightSurface(SurfaceView seen, vec3 albedo, float visible) {
   light.albedo = albedo;
   light.direct = shade.lightColor * (facing * falloff * visible * inCone);
   // A headlight's share keeps shapes readable in the shadow.
-  light.ambient = shade.ambient * (0.6f + 0.4f * abs(toEye) * inversesqrt(normal2 * max(dot(seen.toEye, seen.toEye), 1e-12f)));
+  float eyeDistance2 = max(dot(seen.toEye, seen.toEye), 1e-12f);
+  light.ambient = shade.ambient * (0.6f + 0.4f * abs(toEye) * inversesqrt(normal2 * eyeDistance2));
   return light;
 }
 

@@ -7,13 +7,13 @@
 //        \    |
 //     -----P--+-------- plane, `height` = n.(corner - eye)
 //
-// Rounding: an error e of n.d, an ulp or two of |d|, moves the point along d by t e / (n.d), and so off the plane by t e,
-// an ulp or two of the distance, however flat the view; as the weighted sum of the corners in surfacePoint does. d is
-// the rounded direction in both places, so that its own error moves the point along the plane alone, as it does there.
+// Rounding: an error e of n.d, an ulp or two of |d|, moves the point along d by t e / (n.d), and so off the plane by
+// t e, an ulp or two of the distance, however flat the view; as the weighted sum of the corners in surfacePoint does.
+// d is the rounded direction in both places: its own error moves the point along the plane alone, as it does there.
 //
-// A pixel's ray may pass by its triangle by the 1/256 pixel of the rasterizer's grid. Where the plane is seen edge-on that
-// is far along it: t is held within the triangle's own distances and a 64th of them beyond. A ray that meets the plane at
-// more than 64 times the angle of that 1/256, a quarter of a pixel's, never gets there, and stays on the plane.
+// A pixel's ray may pass by its triangle by the 1/256 pixel of the rasterizer's grid. Where the plane is seen edge-on
+// that is far along it: t is held within the triangle's own distances and a 64th of them beyond. A ray that meets the
+// plane at more than 64 times the angle of that 1/256, a quarter of a pixel's, never gets there.
 #ifndef GNOMON_PLANE_VIEW_GLSL
 #define GNOMON_PLANE_VIEW_GLSL
 

@@ -1,8 +1,8 @@
 #pragma once
 // The frame pass: what the camera sees, its visibility by one map, bias and filter, and its shaded colour, in one draw
-// of the scene after its depth. For a picture of one method. Where several methods or diagnoses are wanted, the G-buffer
-// is drawn once and VisibilityPass and RadiancePass look it up; both give each pixel the same receiver, but for its last
-// bits, and so the same verdict (shared/plane_view.glsl).
+// of the scene after its depth. For a picture of one method. Where several methods or diagnoses are wanted, the
+// G-buffer is drawn once and VisibilityPass and RadiancePass look it up; both give each pixel the same receiver, but
+// for its last bits, and so the same verdict (shared/plane_view.glsl).
 //
 // A triangle's plane is found once for all its pixels, and what a draw has in common comes as push constants: on
 // lavapipe half of those two passes' time goes into reading the same tables once a pixel.

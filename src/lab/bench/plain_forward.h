@@ -1,8 +1,8 @@
 #pragma once
 // What the frame pass is measured against: a forward renderer with a cube shadow map and a constant bias, as anybody
-// would write it, with none of this project's means. Every face of the cube is one pass over the whole scene that writes
-// the distance from the light as depth; the picture is one more pass, with one tap, a texture and a diffuse term, into
-// the frame pass's kind of target. Vertices are attributes, textures and cube are sampled.
+// would write it, with none of this project's means. Every face of the cube is one pass over the whole scene that
+// writes the distance from the light as depth; the picture is one more pass, with one tap, a texture and a diffuse
+// term, into the frame pass's kind of target. Vertices are attributes, textures and cube are sampled.
 
 #include "judge/light_on_map.h"
 
