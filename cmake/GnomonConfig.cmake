@@ -9,6 +9,7 @@ find_dependency(fmt)
 find_dependency(nlohmann_json)
 find_dependency(TinyGLTF)
 find_dependency(OpenImageIO)
+find_dependency(meshoptimizer)
 find_dependency(embree 3)
 find_dependency(TBB)
 find_path(OPENVDB_MODULE_DIR FindOpenVDB.cmake

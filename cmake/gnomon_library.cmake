@@ -11,6 +11,7 @@ add_library(gnomon_options INTERFACE)
 set(warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-float-conversion
     -Wno-missing-field-initializers -Werror)
 target_compile_options(gnomon_options INTERFACE $<BUILD_INTERFACE:${warnings}> -ffp-contract=off)
+target_compile_features(gnomon_options INTERFACE cxx_std_20)
 target_compile_definitions(gnomon_options INTERFACE
   GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_XYZW_ONLY GLM_FORCE_EXPLICIT_CTOR GLM_ENABLE_EXPERIMENTAL)
 if(GNOMON_SANITIZE)

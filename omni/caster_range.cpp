@@ -105,7 +105,7 @@ double farthestReceiver(const Scene& scene, const glm::dvec3& lightW, Distance d
 
 DepthEnds fitDepthEnds(const Scene& scene, const glm::dvec3& lightW, Distance distance,
                        std::span<const glm::dvec3> receiversW) {
-  const double scale = std::max(static_cast<double>(computeBounds(scene).diagonal()), 1e-6);
+  const double scale = std::max(static_cast<double>(computeBounds(scene).diagonal()), 1e-30);
   const double farthest = std::max(farthestReceiver(scene, lightW, distance, receiversW), 2.0 * kLeastNear * scale);
   const double nearest = nearestCaster(scene, lightW, distance, kLeastNear * scale, farthest);
   return {.zNear = nearest * (1.0 - kEndSlack), .zFar = farthest * (1.0 + kEndSlack)};

@@ -91,7 +91,7 @@ FittedMap makeCubeMap(const glm::dvec3& lightW, CubeDepth depth, double zNear, d
                 .sceneScale = sceneScale,
                 .zNear = fitted.zNear,
                 .zFar = fitted.zFar};
-  // What lies within the near distance is thrown away by the fragment shader; the near plane must only not
+  // What lies within the near distance is moved to it by the fragment shader; the near plane must only not
   // cut what lies beyond. A hundredth keeps it clear of rounding.
   fitted.map.clipDepth = clipDepth(radial ? zNear * (0.99 / std::sqrt(3.0)) : zNear, zFar);
   for (int slice = 0; slice < 6; ++slice) {

@@ -112,7 +112,7 @@ def broken_json():
                 info["extensions"] = {"KHR_texture_transform": transform}
             document["images"] = [image]
             document["textures"] = [{"source": 0}]
-            document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": info}}]
+            document["materials"] = [{"alphaMode": "MASK", "pbrMetallicRoughness": {"baseColorTexture": info}}]
             document["meshes"][0]["primitives"][0]["material"] = 0
 
         return change
@@ -182,9 +182,13 @@ def broken_json():
     broken("type_unknown", put("accessors", 0, "type", "VEC7"))
     broken("type_scalar_positions", put("accessors", 0, "type", "SCALAR"))
     broken("type_matrix_positions", put("accessors", 0, "type", "MAT4"))
-    broken("accessor_without_view", drop("accessors", 0, "bufferView"))
-    broken("accessor_sparse", put("accessors", 0, "sparse", {
-        "count": 1, "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 0}}))
+    broken("accessor_without_view_huge", both(drop("accessors", 0, "bufferView"), put("accessors", 0, "count", 2**44)))
+    broken("accessor_sparse_index", put("accessors", 0, "sparse", {
+        "count": 1, "indices": {"bufferView": 0, "componentType": 5125, "byteOffset": 12}, "values": {"bufferView": 0}}))
+    broken("accessor_sparse_range", put("accessors", 0, "sparse", {
+        "count": 4, "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 0}}))
+    broken("accessor_sparse_float_indices", put("accessors", 0, "sparse", {
+        "count": 1, "indices": {"bufferView": 0, "componentType": 5126}, "values": {"bufferView": 0}}))
     broken("accessor_sparse_malformed", put("accessors", 0, "sparse", {"count": 1, "indices": 5, "values": []}))
 
     def attribute_count(document):
@@ -199,7 +203,8 @@ def broken_json():
     broken("buffer_is_a_device", put("buffers", 0, "uri", "/dev/zero"))
     broken("buffer_bad_base64", put("buffers", 0, "uri", "data:application/octet-stream;base64,@@@@!!!!"))
     broken("buffer_short_base64", put("buffers", 0, "uri", data_uri(POSITIONS[:20])))
-    broken("buffer_unknown_data_uri", put("buffers", 0, "uri", data_uri(POSITIONS + INDICES, "text/x-odd")))
+    broken("buffer_data_uri_without_comma", put("buffers", 0, "uri", "data:application/octet-stream;base64"))
+    broken("buffer_outside", put("buffers", 0, "uri", "../../../../../../../../etc/hostname"))
     broken("no_buffers", drop("buffers"))
     broken("no_views", drop("bufferViews"))
     broken("no_accessors", drop("accessors"))
@@ -231,7 +236,16 @@ def broken_json():
     broken("node_is_text", put("nodes", ["mesh"]))
     broken("node_skinned", put("nodes", 0, "skin", 0))
     broken("node_morphed", put("nodes", 0, "weights", [0.5]))
-    broken("node_gpu_instancing", put("nodes", 0, "extensions", {"EXT_mesh_gpu_instancing": {"attributes": {}}}))
+    broken("node_gpu_instancing", put("nodes", 0, "extensions", {
+        "EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}}))
+    broken("view_meshopt_damaged", put("bufferViews", 0, "extensions", {"EXT_meshopt_compression": {
+        "buffer": 0, "byteOffset": 0, "byteLength": 20, "byteStride": 12, "count": 3, "mode": "ATTRIBUTES"}}))
+    broken("view_meshopt_mode", put("bufferViews", 0, "extensions", {"EXT_meshopt_compression": {
+        "buffer": 0, "byteOffset": 0, "byteLength": 20, "byteStride": 12, "count": 3, "mode": "MAGIC"}}))
+    broken("view_meshopt_count", put("bufferViews", 0, "extensions", {"EXT_meshopt_compression": {
+        "buffer": 0, "byteOffset": 0, "byteLength": 20, "byteStride": 12, "count": 2**40, "mode": "ATTRIBUTES"}}))
+    broken("primitive_draco_damaged", put("meshes", 0, "primitives", 0, "extensions", {
+        "KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}))
 
     def shared_infinity(document):
         document["nodes"] = [{"mesh": 0}, {"mesh": 0, "children": [2], "scale": [1e200, 1e200, 1e200]},
@@ -301,8 +315,9 @@ def broken_json():
     broken("meshes_text", put("meshes", "cube"))
     broken("root_array", lambda d: [d])
     broken("root_number", lambda d: 42)
-    broken("requires_draco", put("extensionsRequired", ["KHR_draco_mesh_compression"]))
-    broken("requires_meshopt", put("extensionsRequired", ["EXT_meshopt_compression"]))
+    broken("requires_splats", put("extensionsRequired", ["KHR_gaussian_splatting"]))
+    broken("requires_webgl", put("extensionsRequired", ["KHR_techniques_webgl"]))
+    broken("version_1", put("asset", {"version": "1.0"}))
     broken("requires_unknown", put("extensionsRequired", ["ACME_teapot"]))
     broken("requires_number", put("extensionsRequired", [3]))
     return files

@@ -7,7 +7,7 @@
 #include <openvdb/openvdb.h>
 
 #include <filesystem>
-#include <fstream>
+#include <ostream>
 #include <string>
 
 namespace gnomon {
@@ -22,12 +22,14 @@ inline std::string openVdbMessage(const std::exception& error) {
 // OpenVDB's own File writes to a stream whose failures it does not look at, so that a full disk would go unseen.
 class CheckedArchive : public openvdb::io::Archive {
  public:
-  void writeTo(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
-               const openvdb::MetaMap& meta) const {
-    std::ofstream out(path, std::ios::binary);
-    if (out) Archive::write(out, grids, /*seekable=*/true, meta);
-    out.close();
-    if (!out) throw openvdb::IoError("check that the folder exists and has room");
+  void writeTo(std::ostream& out, const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& meta) const {
+    Archive::write(out, grids, /*seekable=*/true, meta);
+    // A random number, so that no two files are equal; nothing reads it. Behind the magic number, the version of the
+    // format and of the library, and a flag.
+    constexpr std::streamoff kUuidAt = 8 + 4 + 2 * 4 + 1;
+    out.seekp(kUuidAt);
+    out << "00000000-0000-4000-8000-000000000000";
+    out.seekp(0, std::ios::end);
   }
 };
 
@@ -35,7 +37,7 @@ class CheckedArchive : public openvdb::io::Archive {
 inline void writeGrids(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
                        const openvdb::MetaMap& meta) {
   try {
-    writeAtomically(path, [&](const std::filesystem::path& aside) { CheckedArchive().writeTo(aside, grids, meta); });
+    writeFile(path, [&](std::ostream& out) { CheckedArchive().writeTo(out, grids, meta); });
   } catch (const openvdb::Exception& error) {
     throw fileError(path.string(), "cannot be written", openVdbMessage(error));
   }

@@ -16,6 +16,7 @@ layout(push_constant, scalar) uniform Push {
   uint firstTriangle;
   uint triangleCount;
   uint instance;
+  uint firstId;  // of firstTriangle
 };
 
 void main() {
@@ -57,6 +58,7 @@ void main() {
       result.inverseNormal = inverseNormal;
       result.triangle = index;
       result.instance = instance;
+      result.id = firstId + (index - firstTriangle);
       // In any order: the nearest depth is the same.
       found[atomicAdd(draw.vertexCount, 6u) / 6u] = result;
     }

@@ -20,6 +20,7 @@ layout(push_constant, scalar) uniform Push {
   uint firstTriangle;
   uint triangleCount;
   uint instance;
+  uint firstId;  // of firstTriangle
 };
 
 vec4 onSlice(vec3 posL) {
@@ -69,6 +70,7 @@ void main() {
       result.uvC = piece.uvC;
       result.triangle = index;
       result.instance = instance;
+      result.id = firstId + (index - firstTriangle);
       // In any order: the nearest depth is the same.
       found[atomicAdd(draw.vertexCount, 3u) / 3u] = result;
     }

@@ -11,10 +11,12 @@ layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
 layout(location = 0) out vec2 uv;
 layout(location = 1) out flat uint instanceIndex;
 layout(location = 2) out flat uint firstTriangle;
+layout(location = 3) out flat uint firstId;
 
 void main() {
   instanceIndex = gl_InstanceIndex;
   firstTriangle = rangeTriangle;
+  firstId = rangeId;
   uv = uvs[gl_VertexIndex];
   vec3 posW = vec3(transform(instances[gl_InstanceIndex].worldFromMesh, vec4(positions[gl_VertexIndex], 1.0f)));
   vec3 posL = lightFromWorld(lightFrame, posW);

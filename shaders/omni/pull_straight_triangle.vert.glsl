@@ -6,6 +6,7 @@ layout(scalar, binding = kBindBoundedTriangles) readonly buffer Found { Straight
 layout(location = 0) out vec2 uv;
 layout(location = 1) out flat uint instanceIndex;
 layout(location = 2) out flat uint firstTriangle;
+layout(location = 3) out flat uint firstId;
 
 void main() {
   uint i = uint(gl_VertexIndex) / 3u;
@@ -22,6 +23,7 @@ void main() {
   }
   instanceIndex = found[i].instance;
   firstTriangle = found[i].triangle - i;  // the draw's gl_PrimitiveID is i
+  firstId = found[i].id - i;
   gl_Position = vec4(at.x, at.y, at.z, 1.0f);
   gl_ClipDistance[0] = at.w;
 }

@@ -9,3 +9,4 @@ layout(location = 1) GNOMON_BOUNDED flat vec3 sideB;
 layout(location = 2) GNOMON_BOUNDED flat vec3 sideC;
 layout(location = 3) GNOMON_BOUNDED flat vec3 inverseNormal;  // of the triangle's plane (ray_triangle.glsl)
 layout(location = 4) GNOMON_BOUNDED flat uvec2 triangleAndInstance;
+layout(location = 5) GNOMON_BOUNDED flat uint triangleId;

@@ -35,11 +35,14 @@ void main() {
   vec3 distances = sideDistances(triangle, ray.dir);
   float along = 1.0f / dot(inverseNormal, ray.dir);
   DrawnFragment drawn;
-  drawn.depth = mapDepth(map, slice, ray.dir * along);
+  // What is nearer than the near end lies on it, as depth clamping has it.
+  drawn.depth = max(mapDepth(map, slice, ray.dir * along), 0.0f);
   drawn.triangle = triangleAndInstance.x;
   drawn.instance = triangleAndInstance.y;
-  // As a near plane would: what is nearer than the near end is not in the map.
-  if (!isWithin(distances) || !(drawn.depth >= 0.0f) || !mapHoldsTexelAt(map, gl_FragCoord.xy)) discard;
+  drawn.id = triangleId;
+  // Of a plane through the light itself, coordinates' rounding (2^-24 of the scene) says where it is met.
+  bool ahead = along > map.sceneScale * 2.4e-7f;
+  if (!isWithin(distances) || !ahead || !mapHoldsTexelAt(map, gl_FragCoord.xy)) discard;
   if (kMasked == 1 && isHoleAt(distances)) discard;
   gl_FragDepth = drawn.depth;
   storeChannels(drawn);

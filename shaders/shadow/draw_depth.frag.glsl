@@ -12,6 +12,7 @@ layout(constant_id = 0) const int kMasked = 0;
 layout(location = 0) in vec2 uv;
 layout(location = 1) in flat uint instanceIndex;
 layout(location = 2) in flat uint firstTriangle;  // gl_PrimitiveID counts from it
+layout(location = 3) in flat uint firstId;        // and so do ids
 
 void main() {
   if (kMasked == 1 && isHole(materials[instances[instanceIndex].material], uv)) discard;
@@ -19,5 +20,6 @@ void main() {
   drawn.depth = gl_FragCoord.z;
   drawn.triangle = firstTriangle + gl_PrimitiveID;
   drawn.instance = instanceIndex;
+  drawn.id = firstId + gl_PrimitiveID;
   storeChannels(drawn);
 }

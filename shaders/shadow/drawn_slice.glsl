@@ -6,6 +6,7 @@ layout(push_constant, scalar) uniform Push {
   int slice;
   float tolerance;     // of depth
   uint rangeTriangle;  // gl_PrimitiveID counts from this one of the array of all triangles
+  uint rangeId;        // which has this id
 };
 
 layout(constant_id = 3) const int kMultiview = 0;

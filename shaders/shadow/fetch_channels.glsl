@@ -10,6 +10,8 @@ layout(constant_id = 5) const int kChannels = kChannelDepth;  // what the bias r
 layout(binding = kBindMapDepth) uniform texture2DArray depthSlices;
 layout(binding = kBindSecondDepth) uniform texture2DArray secondDepthSlices;
 layout(binding = kBindBackDepth) uniform texture2DArray backDepthSlices;
+layout(binding = kBindIds) uniform utexture2DArray idSlices;
+layout(binding = kBindSecondIds) uniform utexture2DArray secondIdSlices;
 
 Tap fetchTap(ShadowMap map, int slice, ivec2 texel) {
   Tap tap = emptyTap(slice, texel, mapTexelRay(map, slice, mapTexelCenter(map, texel)));
@@ -17,6 +19,8 @@ Tap fetchTap(ShadowMap map, int slice, ivec2 texel) {
   if ((kChannels & kChannelDepth) != 0) tap.z1 = texelFetch(depthSlices, at, 0).x;
   if ((kChannels & kChannelSecondDepth) != 0) tap.z2 = texelFetch(secondDepthSlices, at, 0).x;
   if ((kChannels & kChannelBackDepth) != 0) tap.zBack = texelFetch(backDepthSlices, at, 0).x;
+  if ((kChannels & kChannelIds) != 0) tap.id1 = texelFetch(idSlices, at, 0).x;
+  if ((kChannels & kChannelSecondIds) != 0) tap.id2 = texelFetch(secondIdSlices, at, 0).x;
   return tap;
 }
 

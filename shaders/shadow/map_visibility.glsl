@@ -1,6 +1,7 @@
 // The part of a pixel's visibility that does not ask where its receiver comes from: receiver -> taps -> how much of
 // them is lit. The including shader declares `shade` and `filterParams`, and before shared/map.glsl the constants
-// kMethod, kDiagnose and kMapKind.
+// kMethod, kDiagnose and kMapKind; for biases that follow the scene's surfaces it includes surface_visibility.glsl
+// first.
 #ifndef GNOMON_MAP_VISIBILITY_GLSL
 #define GNOMON_MAP_VISIBILITY_GLSL
 
@@ -10,9 +11,7 @@
 
 #include "shadow/fetch_channels.glsl"
 
-layout(constant_id = 3) const int kSliceCount = 1;
-layout(constant_id = 6) const int kFilter = kShadowFilterNone;  // kShadowFilter*
-layout(constant_id = 7) const int kTapCount = 1;
+#include "shadow/map_constants.glsl"
 
 ShadowMap specializedMap() {
   ShadowMap map = shadowMap;
@@ -33,6 +32,15 @@ float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2
     bool filterKnown;
     FilterTap wanted = filterTap(kFilter, filterParams, position, seed, i, filterKnown);
     if (!filterKnown) return kUnknownVisibility;
+#ifdef GNOMON_SURFACE_VISIBILITY_GLSL
+    if (kMethod == kBiasWitness) {
+      bool tapIsLit;
+      if (!witnessTap(map, receiver, point, wanted.at, tapIsLit, pixelDiagnosis)) continue;
+      if (tapIsLit) lit += wanted.weight;
+      weights += wanted.weight;
+      continue;
+    }
+#endif
     MapTexel found;
     found.slice = point.slice;
     found.texel = mapTexel(map, point.uv);
@@ -41,7 +49,13 @@ float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2
     if (!found.held) continue;
     Tap tap = fetchTap(map, found.slice, found.texel);
     bool known;
-    bool tapLit = biasLit(kMethod, map, shade.bias, receiver, tap, known);
+    bool tapLit;
+#ifdef GNOMON_SURFACE_VISIBILITY_GLSL
+    if (kMethod >= kFirstSurfaceBias)
+      tapLit = surfaceBiasLit(kMethod, map, lookupTables(), shade.bias, receiver, tap, known);
+    else
+#endif
+      tapLit = biasLit(kMethod, map, shade.bias, receiver, tap, known);
     if (kDiagnose == 1) {
       pixelDiagnosis.flags |= kPixelCovered | (tapLit ? kPixelLit : 0u) | (known ? 0u : kPixelUnknown);
       if (receiverPlaneDepth(map, tap.slice, receiver, tap.ray).grazing) pixelDiagnosis.flags |= kPixelGrazing;

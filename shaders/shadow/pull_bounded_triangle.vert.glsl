@@ -21,5 +21,6 @@ void main() {
     sideC = found[i].sideC;
     inverseNormal = found[i].inverseNormal;
     triangleAndInstance = uvec2(found[i].triangle, found[i].instance);
+    triangleId = found[i].id;
   }
 }

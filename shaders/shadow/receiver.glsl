@@ -10,6 +10,7 @@ bool receiverOf(SurfacePoint surface, out Receiver receiver) {
   float cameraSide = dot(surface.normal, shade.camera.eyeW - surface.position);
   receiver.posL = lightFromWorld(lightFrame, surface.position);
   receiver.normalL = directionFromWorld(lightFrame, lightSide > 0.0f ? surface.normal : -surface.normal);
+  receiver.id = 0u;
   return lightSide * cameraSide > 0.0f;
 }
 

@@ -16,11 +16,18 @@ layout(constant_id = 2) const int kMapKind = 0;  // kMap*
 layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 
 layout(constant_id = 1) const int kDiagnose = 0;
+layout(constant_id = 9) const int kMaskedScene = 1;
 
-layout(push_constant, scalar) uniform Push { FilterParams filterParams; };
+layout(push_constant, scalar) uniform Push {
+  FilterParams filterParams;
+  float endMargin;  // LookupTables
+  uint idShift;
+};
 layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagnosis diagnosis[]; };
+
+#include "shadow/surface_visibility.glsl"
 
 #include "shadow/map_visibility.glsl"
 #include "shadow/receiver_fetch.glsl"
@@ -30,6 +37,13 @@ float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosi
   if (id.instancePlusOne == 0u) return 1.0f;
   Receiver receiver;
   if (!fetchReceiver(pixel, id, receiver)) return 0.0f;
+  if ((kChannels & (kChannelIds | kChannelSecondIds)) != 0) {
+    receiver.id = id.triangle + 1u;
+    if (kInstanced == 1) {
+      uint instance = id.instancePlusOne - 1u;
+      receiver.id = instances[instance].firstId + (id.triangle - instances[instance].firstTriangle);
+    }
+  }
   return receiverVisibility(receiver, pixel, pixelDiagnosis);
 }
 
@@ -40,6 +54,8 @@ void main() {
   PixelDiagnosis pixelDiagnosis;
   pixelDiagnosis.texel = 0u;
   pixelDiagnosis.flags = 0u;
+  pixelDiagnosis.walkEnds = 0u;
+  pixelDiagnosis.walkSteps = 0u;
   visibility[index] = shadePixel(pixel, fetchPrimitive(pixel), pixelDiagnosis);
   if (kDiagnose == 1) diagnosis[index] = pixelDiagnosis;
 }

@@ -16,11 +16,14 @@ layout(constant_id = 4) const int kStored = 0;  // kChannel* bits
 layout(binding = kBindMapDepth) uniform texture2DArray depthSlices;
 
 layout(location = 0) out float storedSecondDepth;
+layout(location = 1) out uint storedId;
+layout(location = 2) out uint storedSecondId;
 
 struct DrawnFragment {
   float depth;     // as the map has it
   uint triangle;   // in the array of all triangles
   uint instance;
+  uint id;         // of both (shared/triangle_ids.glsl)
 };
 
 // In the peel what equals the first depth layer, up to a tolerance, is thrown away (Weiskopf & Ertl 2003, section 5).
@@ -30,6 +33,8 @@ void storeChannels(DrawnFragment drawn) {
     if (drawn.depth <= first + tolerance) discard;
   }
   if ((kStored & kChannelSecondDepth) != 0) storedSecondDepth = drawn.depth;
+  if ((kStored & kChannelIds) != 0) storedId = drawn.id;
+  if ((kStored & kChannelSecondIds) != 0) storedSecondId = drawn.id;
 }
 
 #endif

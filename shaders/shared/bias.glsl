@@ -18,6 +18,7 @@ GNOMON_SHARED_BEGIN
 struct Receiver {
   vec3 posL;
   vec3 normalL;
+  uint id GNOMON_CPP_ONLY(= 0u);  // of its triangle (shared/triangle_ids.glsl), where a bias asks for ids
 };
 
 // The receiver's plane where a ray meets it, as the map stores it. Where the ray does not meet the plane between the
@@ -44,14 +45,18 @@ GNOMON_FN PlaneDepth receiverPlaneDepth(ShadowMap map, int slice, Receiver recei
 GNOMON_SHARED_END
 
 #include "shared/bias/adaptive.glsl"
+#include "shared/bias/bevy.glsl"
 #include "shared/bias/constant.glsl"
 #include "shared/bias/cosine.glsl"
 #include "shared/bias/dual_layer.glsl"
+#include "shared/bias/eevee.glsl"
+#include "shared/bias/godot.glsl"
 #include "shared/bias/none.glsl"
 #include "shared/bias/normal_offset.glsl"
 #include "shared/bias/receiver_plane.glsl"
 #include "shared/bias/second_depth.glsl"
 #include "shared/bias/slope.glsl"
+#include "shared/bias/unreal_vsm.glsl"
 #include "shared/bias/user_knobs.glsl"
 #include "shared/bias/user.glsl"
 
@@ -67,6 +72,10 @@ GNOMON_SHARED_BEGIN
 // Where the receiver is looked up and compared: at itself, but for methods that move it first.
 GNOMON_FN Receiver biasReceiver(int method, ShadowMap map, BiasParams params, Receiver receiver) {
   if (biasMethod(method) == kBiasNormalOffset) return normalOffsetReceiver(map, params, receiver);
+  if (biasMethod(method) == kBiasEevee) return eeveeReceiver(map, receiver);
+  if (biasMethod(method) == kBiasGodot) return godotReceiver(map, receiver);
+  if (biasMethod(method) == kBiasBevy) return bevyReceiver(map, receiver);
+  if (biasMethod(method) == kBiasUnrealVsm) return unrealVsmReceiver(map, receiver);
   return receiver;
 }
 
@@ -102,6 +111,14 @@ GNOMON_FN bool biasLit(int method, ShadowMap map, BiasParams params, Receiver re
       return dualLit(map, params, receiver, tap);
     case kBiasUser:
       return userLit(map, params, receiver, tap);
+    case kBiasEevee:
+      return eeveeLit(map, receiver, tap);
+    case kBiasGodot:
+      return godotLit(map, receiver, tap);
+    case kBiasBevy:
+      return noneLit(map, receiver, tap);
+    case kBiasUnrealVsm:
+      return unrealVsmLit(map, receiver, tap);
   }
   known = false;
   return false;

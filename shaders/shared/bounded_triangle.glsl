@@ -26,13 +26,14 @@ struct BoundedTriangle {
   vec3 inverseNormal;
   uint triangle;  // in the array of all triangles
   uint instance;
+  uint id;  // of both (shared/triangle_ids.glsl)
 };
 
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::BoundedTriangle) == 88);
-static_assert(offsetof(gnomon::glsl::BoundedTriangle, instance) == 84);
+static_assert(sizeof(gnomon::glsl::BoundedTriangle) == 92);
+static_assert(offsetof(gnomon::glsl::BoundedTriangle, id) == 88);
 static_assert(sizeof(gnomon::glsl::BoundedDraw) == 20);
 #endif
 #endif

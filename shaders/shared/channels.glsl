@@ -15,11 +15,15 @@ GNOMON_SHARED_BEGIN
 const int kChannelDepth = 1;        // the nearest depth
 const int kChannelSecondDepth = 2;  // the nearest depth behind it
 const int kChannelBackDepth = 4;    // the nearest back face of solids; sheets as they are
+const int kChannelIds = 8;          // which triangle of which instance the nearest depth is of
+const int kChannelSecondIds = 16;   // and the second depth
 
 // Array textures, a slice for each slice of the map. There is room for 6 up to kBindRadiance.
 const int kBindMapDepth = kBindFirstFree;
 const int kBindSecondDepth = kBindFirstFree + 1;
 const int kBindBackDepth = kBindFirstFree + 2;
+const int kBindIds = kBindFirstFree + 3;
+const int kBindSecondIds = kBindFirstFree + 4;
 
 // How a slice's triangles are drawn, for fragment shaders.
 const int kPassNearest = 0;  // the depth test keeps the nearest of all
@@ -35,6 +39,9 @@ struct Tap {
   float z1;     // nearest depth; 1 where there is none
   float z2;     // nearest depth beyond z1; 1 where there is none
   float zBack;  // nearest depth of a back face; 1 where there is none
+  // Of the triangles with depths z1 and z2, numbered as in shared/triangle_ids.glsl; 0 where there is none.
+  uint id1;
+  uint id2;
 };
 
 GNOMON_FN Tap emptyTap(int slice, ivec2 texel, Ray ray) {
@@ -45,6 +52,8 @@ GNOMON_FN Tap emptyTap(int slice, ivec2 texel, Ray ray) {
   tap.z1 = 1.0f;
   tap.z2 = 1.0f;
   tap.zBack = 1.0f;
+  tap.id1 = 0u;
+  tap.id2 = 0u;
   return tap;
 }
 

@@ -34,6 +34,7 @@ const int kKernelSamples = 16;  // of the exact kernels
 
 struct FilterTap {
   ivec2 texel;  // may lie beyond the slice's edge
+  vec2 at;      // the place it stands for, texels: a bias that is exact needs no texel
   float weight;
 };
 
@@ -63,6 +64,7 @@ GNOMON_FN vec2 jitterOffset(FilterParams params, uint seed, int i) {
 GNOMON_FN FilterTap tapAt(vec2 at, float weight) {
   FilterTap tap;
   tap.texel = ivec2(int(floor(at.x)), int(floor(at.y)));
+  tap.at = at;
   tap.weight = weight;
   return tap;
 }
@@ -72,7 +74,9 @@ GNOMON_FN FilterTap bilinearTap(vec2 position, int i) {
   vec2 fraction = vec2(position.x - 0.5f - first.x, position.y - 0.5f - first.y);
   float wx = (i & 1) == 1 ? fraction.x : 1.0f - fraction.x;
   float wy = (i >> 1) == 1 ? fraction.y : 1.0f - fraction.y;
-  return tapAt(first + vec2(float(i & 1), float(i >> 1)), wx * wy);
+  FilterTap tap = tapAt(first + vec2(float(i & 1), float(i >> 1)), wx * wy);
+  tap.at = vec2(tap.at.x + 0.5f, tap.at.y + 0.5f);
+  return tap;
 }
 
 // Tap i of a receiver that falls on `position` (texels of the slice). An unknown filter sets `known` to false, and the

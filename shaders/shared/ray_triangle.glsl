@@ -101,14 +101,20 @@ GNOMON_FN Twofold turned(Twofold v) {
   return t;
 }
 
-GNOMON_FN vec3 inversePlaneNormal(LightTriangle triangle) {
-  Twofold ab = twofoldDifference(triangle.b, triangle.a);
-  Twofold ac = twofoldDifference(triangle.c, triangle.a);
+// (b - a) x (c - a), as exact as floats can hold it.
+GNOMON_FN vec3 exactNormal(vec3 a, vec3 b, vec3 c) {
+  Twofold ab = twofoldDifference(b, a);
+  Twofold ac = twofoldDifference(c, a);
   Twofold plus = twofoldProduct(turned(ab), turned(turned(ac)));
   Twofold minus = twofoldProduct(turned(turned(ab)), turned(ac));
   Twofold normal = twofoldDifference(plus.high, minus.high);
   GNOMON_PRECISE vec3 rounded = normal.high + (normal.low + (plus.low - minus.low));
-  return rounded * (1.0f / dot(rounded, triangle.a));
+  return rounded;
+}
+
+GNOMON_FN vec3 inversePlaneNormal(LightTriangle triangle) {
+  vec3 normal = exactNormal(triangle.a, triangle.b, triangle.c);
+  return normal * (1.0f / dot(normal, triangle.a));
 }
 
 GNOMON_SHARED_END

@@ -23,6 +23,7 @@ struct SceneInstance {
   mat4 worldFromMesh;
   uint firstTriangle;  // of its mesh, in the array of triangles
   uint material;
+  uint firstId;  // of its first triangle (shared/triangle_ids.glsl)
 };
 
 struct SceneMaterial {
@@ -63,7 +64,7 @@ GNOMON_FN vec3 pixelDirection(CameraView camera, int x, int y) {
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::SceneInstance) == 72);
+static_assert(sizeof(gnomon::glsl::SceneInstance) == 76);
 static_assert(sizeof(gnomon::glsl::SceneMaterial) == 32);
 static_assert(sizeof(gnomon::glsl::CameraView) == 128 && offsetof(gnomon::glsl::CameraView, height) == 124);
 #endif

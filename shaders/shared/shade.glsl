@@ -42,6 +42,8 @@ struct FrameUniforms {
 struct PixelDiagnosis {
   uint texel;  // x | y << 14 | slice << 28
   uint flags;  // kPixel*
+  uint walkEnds;   // of witness: WalkTally (bias/witness.glsl)
+  uint walkSteps;
 };
 const uint kPixelShaded = 1u;     // a surface that faces the light
 const uint kPixelCovered = 2u;    // the map covers it

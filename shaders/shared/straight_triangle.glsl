@@ -13,12 +13,13 @@ struct StraightTriangle {
   vec2 uvA, uvB, uvC;
   uint triangle;  // of which it is a piece, in the array of all triangles
   uint instance;
+  uint id;  // of both
 };
 
 GNOMON_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(gnomon::glsl::StraightTriangle) == 80);
+static_assert(sizeof(gnomon::glsl::StraightTriangle) == 84);
 static_assert(sizeof(gnomon::glsl::StraightTriangle) <= sizeof(gnomon::glsl::BoundedTriangle));
 #endif
 #endif

@@ -16,6 +16,7 @@ layout(push_constant, scalar) uniform Push {
   uint firstTriangle;
   uint triangleCount;
   uint instance;
+  uint firstId;  // of firstTriangle
 };
 
 // From columns to the slice's square.
@@ -33,6 +34,7 @@ void append(LightTriangle triangle, uint index, vec2 low, vec2 high) {
   result.inverseNormal = inversePlaneNormal(triangle);
   result.triangle = index;
   result.instance = instance;
+  result.id = firstId + (index - firstTriangle);
   // In any order: the nearest depth is the same.
   found[atomicAdd(draw.vertexCount, 6u) / 6u] = result;
 }

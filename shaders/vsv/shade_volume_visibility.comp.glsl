@@ -55,6 +55,8 @@ void main() {
   PixelDiagnosis pixelDiagnosis;
   pixelDiagnosis.texel = 0u;
   pixelDiagnosis.flags = 0u;
+  pixelDiagnosis.walkEnds = 0u;
+  pixelDiagnosis.walkSteps = 0u;
   visibility[index] = shadePixel(pixel, fetchPrimitive(pixel), pixelDiagnosis);
   if (kDiagnose == 1) diagnosis[index] = pixelDiagnosis;
 }

@@ -18,7 +18,7 @@ void writePng(const std::filesystem::path& path, const Image8& image) {
 }
 
 void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames) {
-  imageCodec().writeExr(path, image, channelNames);
+  writeTextFile(path, imageCodec().encodeExr(image, channelNames));
 }
 
 ImageF readImage(const std::filesystem::path& path) {
@@ -26,6 +26,8 @@ ImageF readImage(const std::filesystem::path& path) {
 }
 
 Image8 decodeImage(const uint8_t* bytes, size_t size, const std::string& what) {
+  // The first byte of a PNG, and of no JPEG.
+  if (size > 0 && bytes[0] == 0x89) return decodePng(bytes, size, what);
   return imageCodec().decodeImage(bytes, size, what);
 }
 

@@ -7,10 +7,9 @@
 
 namespace gnomon {
 
-// As the functions of these names in image.h.
+// As the functions of these names in image.h; encodeExr makes the bytes that writeExr writes.
 struct ImageCodec {
-  void (*writeExr)(const std::filesystem::path& path, const ImageF& image,
-                   const std::vector<std::string>& channelNames);
+  std::string (*encodeExr)(const ImageF& image, const std::vector<std::string>& channelNames);
   ImageF (*readImage)(const std::filesystem::path& path);
   Image8 (*decodeImage)(const uint8_t* bytes, size_t size, const std::string& what);
   std::string (*encodeJpeg)(const Image8& image, int quality);

@@ -2,7 +2,6 @@
 
 #include "base/check.h"
 #include "base/error.h"
-#include "base/file.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -14,18 +13,18 @@ namespace gnomon {
 
 namespace {
 
-void writeImage(const std::filesystem::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc format,
-                const void* values) {
-  writeAtomically(path, [&](const std::filesystem::path& aside) {
-    auto out = OIIO::ImageOutput::create(aside.string());
-    if (!out) throw fileError(path.string(), "no writer for this kind of image", "use .exr");
-    if (!out->open(aside.string(), spec) || !out->write_image(format, values) || !out->close())
-      throw fileError(path.string(), "cannot be written", out->geterror());
-  });
+// The file's bytes. The name says which writer is meant.
+std::string encode(const char* name, const OIIO::ImageSpec& spec, OIIO::TypeDesc format, const void* values) {
+  OIIO::Filesystem::IOVecOutput memory;
+  auto out = OIIO::ImageOutput::create(name);
+  GNOMON_CHECK(out && out->supports("ioproxy"));
+  out->set_ioproxy(&memory);
+  if (!out->open(name, spec) || !out->write_image(format, values) || !out->close())
+    throw fileError("a picture", "cannot be encoded", out->geterror());
+  return {memory.buffer().begin(), memory.buffer().end()};
 }
 
-void writeExrFile(const std::filesystem::path& path, const ImageF& image,
-                  const std::vector<std::string>& channelNames) {
+std::string encodeExrBytes(const ImageF& image, const std::vector<std::string>& channelNames) {
   GNOMON_CHECK_EQ(image.channels, static_cast<int>(channelNames.size()));
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   spec.channelnames = channelNames;
@@ -34,7 +33,7 @@ void writeExrFile(const std::filesystem::path& path, const ImageF& image,
   // No wall clock in an output: the same command gives the same bytes.
   spec.attribute("DateTime", "1980:01:01 00:00:00");
   spec.attribute("Software", "gnomon");
-  writeImage(path, spec, OIIO::TypeDesc::FLOAT, image.values.data());
+  return encode("memory.exr", spec, OIIO::TypeDesc::FLOAT, image.values.data());
 }
 
 ImageF readImageFile(const std::filesystem::path& path) {
@@ -54,9 +53,8 @@ Image8 decodeImageBytes(const uint8_t* bytes, size_t size, const std::string& wh
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  // The name only tells OpenImageIO which reader to try: PNG begins with 0x89, JPEG with 0xff.
-  const bool isPng = size > 0 && bytes[0] == 0x89;
-  auto in = OIIO::ImageInput::open(isPng ? "memory.png" : "memory.jpg", &config);
+  // The name only tells OpenImageIO which reader to try; PNG is image_png.h's.
+  auto in = OIIO::ImageInput::open("memory.jpg", &config);
   if (!in) throw fileError(what, "cannot be decoded as PNG or JPEG", OIIO::geterror());
   const OIIO::ImageSpec spec = in->spec();
   if (spec.width <= 0 || spec.height <= 0 || spec.width > 16384 || spec.height > 16384)
@@ -77,13 +75,7 @@ std::string encodeJpegBytes(const Image8& image, int quality) {
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("compression", fmt::format("jpeg:{}", quality));
-  OIIO::Filesystem::IOVecOutput memory;
-  auto out = OIIO::ImageOutput::create("memory.jpg");
-  GNOMON_CHECK(out && out->supports("ioproxy"));
-  out->set_ioproxy(&memory);
-  if (!out->open("memory.jpg", spec) || !out->write_image(OIIO::TypeDesc::UINT8, image.values.data()) || !out->close())
-    throw fileError("a JPEG picture", "cannot be encoded", out->geterror());
-  return {memory.buffer().begin(), memory.buffer().end()};
+  return encode("memory.jpg", spec, OIIO::TypeDesc::UINT8, image.values.data());
 }
 
 std::string base64Text(std::string_view bytes) {
@@ -95,7 +87,7 @@ std::string base64Text(std::string_view bytes) {
 }  // namespace gnomon
 
 extern "C" __attribute__((visibility("default"))) const gnomon::ImageCodec gnomonImageCodec = {
-    .writeExr = gnomon::writeExrFile,
+    .encodeExr = gnomon::encodeExrBytes,
     .readImage = gnomon::readImageFile,
     .decodeImage = gnomon::decodeImageBytes,
     .encodeJpeg = gnomon::encodeJpegBytes,

@@ -10,4 +10,8 @@ namespace gnomon {
 // 1 (grey), 3 (RGB) or 4 (RGBA) channels.
 std::string encodePng(const Image8& image);
 
+// As decodeImage, by libpng: line by line, so that it takes no more than the image; and what libpng has to say is the
+// error's, and not printed.
+Image8 decodePng(const uint8_t* bytes, size_t size, const std::string& what);
+
 }  // namespace gnomon

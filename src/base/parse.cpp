@@ -17,23 +17,37 @@ std::optional<double> parseNumber(const std::string& text) {
   return value;
 }
 
-std::optional<glm::vec3> tryVec3(const std::string& text) {
+std::optional<glm::dvec3> tryVec3(const std::string& text) {
   std::istringstream words(text);
-  glm::vec3 v(0.0f);
+  glm::dvec3 v(0.0);
   int count = 0;
   for (std::string word; std::getline(words, word, ','); ++count) {
     const std::optional<double> number = parseNumber(word);
     if (!number || count == 3) return std::nullopt;
-    v[count] = static_cast<float>(*number);
+    v[count] = *number;
   }
   if (count != 3) return std::nullopt;
   return v;
 }
 
 glm::vec3 parseVec3(const std::string& flag, const std::string& text) {
-  const std::optional<glm::vec3> v = tryVec3(text);
+  const std::optional<glm::dvec3> v = tryVec3(text);
   if (!v) throw UsageError(fmt::format("{} {}: write three numbers, x,y,z", flag, text));
-  return *v;
+  return glm::vec3(*v);
+}
+
+void checkPlace(const std::string& flag, const glm::dvec3& place) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(place[axis]) <= kFarthestPlace))
+      throw UsageError(fmt::format("{} {},{},{}: is too far for floats; give at most {:g} metres on each axis", flag,
+                                   place.x, place.y, place.z, kFarthestPlace));
+}
+
+glm::dvec3 parsePlace(const std::string& flag, const std::string& text) {
+  const std::optional<glm::dvec3> place = tryVec3(text);
+  if (!place) throw UsageError(fmt::format("{} {}: write three numbers, x,y,z", flag, text));
+  checkPlace(flag, *place);
+  return *place;
 }
 
 std::string shellWord(const std::string& word) {

@@ -1,4 +1,5 @@
 #include "base/file.h"
+#include "base/terminal.h"
 #include "cli/map_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
@@ -35,13 +36,15 @@ int runBenchVerb(const BenchFlags& flags) {
                        .only = flags.only.empty() ? std::vector<std::string>{} : CLI::detail::split(flags.only, ','),
                        .growth = !flags.noGrowth,
                        .mostTriangles = flags.mostTriangles};
+  for (const std::string& file : {flags.json, flags.svg})
+    if (!file.empty()) checkOutput(file);
   if (!flags.noStart) options.program = "/proc/self/exe";
   if (!options.program.empty()) options.program = std::filesystem::read_symlink(options.program);
   const Session session = openSession(flags.scene);
   const Bench bench = runBench(session, {.name = flags.scene.device}, options);
   if (!flags.json.empty()) writeTextFile(flags.json, benchJson(session, bench, commandLine()));
   if (!flags.svg.empty()) writeTextFile(flags.svg, growthSvg(bench.growths));
-  std::fputs(benchTable(session, bench).c_str(), stdout);
+  say(benchTable(session, bench));
   return 0;
 }
 

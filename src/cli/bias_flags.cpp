@@ -1,6 +1,8 @@
 #include "cli/bias_flags.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
+#include "shadow/user_bias_check.h"
 
 #include <algorithm>
 #include <sstream>
@@ -97,7 +99,8 @@ void setUserKnob(const std::string& text, CompareOptions& options) {
       found = true;
     }
   }
-  if (!found) throw UsageError(fmt::format("--bias-file-knob {}: no such parameter; choose from {}", text, known));
+  if (!found)
+    throw UsageError(fmt::format("--bias-file-knob {}: no such parameter; {}", text, chooseFrom(name, known)));
 }
 
 // Those of all --bias-file, after the others.
@@ -133,10 +136,11 @@ void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases) {
           "may be repeated")
       ->allow_extra_args(false);
   verb.add_option("--filters", flags.filters, "comma-separated, or all: " + filterChoices())->capture_default_str();
-  verb.add_option("--epsilon-at", flags.epsilonAt,
-                  "where adaptive evaluates its epsilon: fragment (the paper's text), occluder (its Algorithm 1) or "
-                  "stored (its listings)")
-      ->capture_default_str();
+  for (const BiasChoice* choice : biasChoices()) {
+    const std::string flag = choice->flag();
+    flags.choices[flag] = choice->values.front();
+    verb.add_option(flag, flags.choices[flag], choice->sentence)->capture_default_str();
+  }
   forEachKnob([&](const char* owner, const Knob& knob) {
     const std::string flag = knobFlag(owner, knob);
     verb.add_option_function<float>(
@@ -145,10 +149,14 @@ void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases) {
 }
 
 void chooseBiases(const BiasFlags& flags, CompareOptions& options) {
-  for (const std::string& path : flags.biasFiles) options.userBiases.push_back(loadUserBias(path));
+  for (const std::string& path : flags.biasFiles) {
+    options.userBiases.push_back(loadUserBias(path));
+    checkUserBias(*options.userBiases.back());
+  }
   addNamedBiases(flags, options);
   options.filters = parseFilters(flags.filters);
-  options.epsilonAt = parseEpsilonAt(flags.epsilonAt);
+  for (const BiasChoice* choice : biasChoices())
+    options.choices.*choice->member = choice->parse(flags.choices.at(choice->flag()));
   forEachKnob([&](const char* owner, const Knob& knob) {
     const auto found = flags.knobs.find(knobFlag(owner, knob));
     if (found != flags.knobs.end()) options.knobs.push_back({&knob, checkedKnob(found->first, knob, found->second)});

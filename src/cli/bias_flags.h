@@ -19,8 +19,8 @@ struct BiasFlags {
   std::vector<std::string> biasFiles;
   std::vector<std::string> biasFileKnobs;  // NAME=VALUE or VALUE
   std::string filters = "none";
-  std::string epsilonAt = "occluder";
-  std::map<std::string, float> knobs;  // flag -> value
+  std::map<std::string, std::string> choices;  // by flag
+  std::map<std::string, float> knobs;          // flag -> value
 };
 // --biases, --bias-file, --bias-file-knob, --filters, --epsilon-at, and a flag for each knob.
 void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases);

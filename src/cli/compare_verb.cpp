@@ -1,18 +1,25 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
+#include "base/parse.h"
+#include "base/terminal.h"
 #include "cli/method_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
+#include "cli/wrap.h"
+#include "lab/compare/equal_error.h"
+#include "lab/compare/recommendation.h"
 #include "lab/compare/results.h"
 #include "lab/compare/table.h"
 #include "lab/compare/threshold.h"
 #include "lab/page/report.h"
+#include "lab/results/result_folder.h"
 
 #include <cstdio>
 #include <memory>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 namespace gnomon {
@@ -27,31 +34,52 @@ struct CompareFlags {
   std::vector<std::string> failIf;
   int repeats = 5;
   bool tune = false;
+  bool wide = false;
+  std::string untilError;
+  int untilMapSize = CompareOptions().untilMapSide;
 };
+
+// "0.1%" or "0.001".
+double parseShare(const std::string& flag, const std::string& text) {
+  const bool percent = text.ends_with('%');
+  const std::optional<double> number = parseNumber(percent ? text.substr(0, text.size() - 1) : text);
+  const double share = number.value_or(-1.0) * (percent ? 0.01 : 1.0);
+  if (!(share >= 0.0 && share < 1.0))
+    throw UsageError(fmt::format("{} {}: write a share of the pixels, as in 0.1% or 0.001", flag, text));
+  return share;
+}
 
 int runCompare(const CompareFlags& flags) {
   std::vector<Threshold> thresholds;
   for (const std::string& text : flags.failIf) thresholds.push_back(parseThreshold(text));
   CompareOptions options = compareOptions(flags.method);
-  options.outDir = flags.out;
+  for (const Threshold& threshold : thresholds) checkMeansARow(threshold, options);
+  if (!flags.json.empty()) checkOutput(flags.json);
+  ResultFolder folder(flags.out, "results.json");
+  options.outDir = folder.aside();
   if (!flags.out.empty()) preloadImages();
   options.repeats = flags.repeats;
   options.tune = flags.tune;
+  options.recommend = true;
+  if (!flags.untilError.empty()) options.untilError = parseShare("--until-error", flags.untilError);
+  options.untilMapSide = flags.untilMapSize;
 
   const Session session = openSession(flags.scene);
-  const Comparison comparison = compare(session, options);
+  Comparison comparison = compare(session, options);
+  comparison.files = folder.files();
   const std::string json = resultsJson(session, comparison, commandLine());
   if (!flags.out.empty()) {
     writeTextFile(options.outDir / "results.json", json);
     writeTextFile(options.outDir / "report.html", reportHtml(options.outDir));
+    folder.publish();
   }
   if (!flags.json.empty()) writeTextFile(flags.json, json);
 
-  std::fputs(comparisonHeader(session, comparison).c_str(), stdout);
-  std::fputs(comparisonTable(comparison).c_str(), stdout);
-  std::fputs(tuningTable(comparison).c_str(), stdout);
-  if (!flags.out.empty())
-    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
+  const size_t width = terminalWidth();
+  say(wrapped(comparisonHeader(session, comparison), width));
+  say(comparisonTable(comparison, {.wide = flags.wide, .width = width}));
+  say(wrapped(tuningTable(comparison) + equalErrorTable(comparison) + recommendation(comparison), width));
+  if (!flags.out.empty()) say(fmt::format("wrote {0}/report.html, results.json and pictures below {0}\n", flags.out));
   for (const Threshold& threshold : thresholds) {
     if (const std::optional<std::string> line = crossed(threshold, comparison.rows)) {
       std::fprintf(stderr, "gnomon: %s\n", line->c_str());
@@ -74,6 +102,14 @@ Run addCompare(CLI::App* verb) {
   verb->add_flag("--tune", flags->tune,
                  "also run each bias at the parameter values with the least acne + leak, and test those values from "
                  "another camera and at half the map size");
+  verb->add_option("--until-error", flags->untilError,
+                   "also find each method's smallest map at which at most this share of all pixels is wrong, edges "
+                   "included, and what that costs: 0.1% or 0.001");
+  verb->add_option("--until-map-size", flags->untilMapSize, "side of the largest map that --until-error tries, texels")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str();
+  verb->add_flag("--wide", flags->wide,
+                 "all columns in the table; default: the main ones, and only as many as the terminal has room for");
   verb->add_option("--repeats", flags->repeats, "repetitions of every timed stage; medians are reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

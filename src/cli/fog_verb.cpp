@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/file.h"
+#include "base/terminal.h"
 #include "cli/map_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
@@ -10,6 +11,7 @@
 #include "lab/fog/fog_pictures.h"
 #include "lab/fog/fog_report.h"
 #include "lab/page/report.h"
+#include "lab/results/result_folder.h"
 #include "vsv/volume_parameterization.h"
 
 #include <algorithm>
@@ -119,26 +121,26 @@ const Parameterization* parseMarchMap(const std::string& name) {
   throw UsageError(fmt::format("--march-map {}: choose {}", name, marchMaps()));
 }
 
-// A picture where -o names one, else a folder.
+// A picture where -o names one (a stream gets a PNG), else a folder.
 bool isPicture(const std::string& out) {
   const std::string extension = std::filesystem::path(out).extension().string();
-  return extension == ".exr" || extension == ".png";
+  return extension == ".exr" || extension == ".png" || isStream(out);
 }
 
-std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags) {
+std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags, const glm::dvec3& originW) {
   if (flags.density.empty()) {
     if (!flags.densityAt.empty() || flags.densityScale)
       throw UsageError("--density-at and --density-scale need a --density");
     return nullptr;
   }
-  DensityPlacement placement{.scale = flags.densityScale.value_or(1.0)};
+  DensityPlacement placement{.scale = flags.densityScale.value_or(1.0), .originW = originW};
   if (!(placement.scale >= 1e-6 && placement.scale <= 1e6))
     throw UsageError(fmt::format("--density-scale {}: give a scale factor, 1e-6..1e6", placement.scale));
-  if (!flags.densityAt.empty()) placement.centerW = glm::dvec3(parseVec3("--density-at", flags.densityAt));
+  if (!flags.densityAt.empty()) placement.centerW = parsePlace("--density-at", flags.densityAt);
   return std::make_shared<const DensityGrid>(flags.density, placement);
 }
 
-FogMedium fogMedium(const FogFlags& flags) {
+FogMedium fogMedium(const FogFlags& flags, const glm::dvec3& originW) {
   FogMedium medium{.sigmaA = parseSpectrum("--sigma-a", flags.sigmaA), .reach = flags.reach};
   if (!flags.sigmaS.empty()) medium.sigmaS = parseSpectrum("--sigma-s", flags.sigmaS);
   if (!(std::abs(flags.g) < 1.0)) throw UsageError(fmt::format("--g {}: must be between -1 and 1", flags.g));
@@ -148,7 +150,7 @@ FogMedium fogMedium(const FogFlags& flags) {
   if (!(flags.ambient >= 0.0 && flags.ambient < 1e9))
     throw UsageError(fmt::format("--ambient {}: give cd/m^2, 0 or more and less than 1e9", flags.ambient));
   medium.ambient = static_cast<float>(flags.ambient);
-  medium.density = densityOf(flags);
+  medium.density = densityOf(flags, originW);
   return medium;
 }
 
@@ -168,7 +170,7 @@ std::string integratorsHelp() {
   return help;
 }
 
-FogOptions fogOptions(const FogFlags& flags) {
+FogOptions fogOptions(const FogFlags& flags, const glm::dvec3& originW) {
   const bool folder = !flags.out.empty() && !isPicture(flags.out);
   // A picture alone needs one way to integrate; whoever asks for numbers wants all.
   const bool compares = folder || flags.truth || !flags.json.empty() || flags.out.empty();
@@ -182,7 +184,7 @@ FogOptions fogOptions(const FogFlags& flags) {
                      .map = flags.map.options,
                      .mapSide = flags.map.mapSize,
                      .cull = parseCullMode(flags.map.cull),
-                     .medium = fogMedium(flags),
+                     .medium = fogMedium(flags, originW),
                      .truth = flags.truth,
                      .cache = !flags.noCache,
                      .repeats = flags.repeats.value_or(compares ? kComparedRepeats : kPictureRepeats)};
@@ -194,7 +196,6 @@ FogOptions fogOptions(const FogFlags& flags) {
   if (!flags.move.empty()) options.motion = parseMotion(flags.move, flags.frames);
   if (options.motion && !folder && !flags.truth)
     throw UsageError("--frames: give a folder with -o for the frames, or --truth to measure flicker");
-  if (folder) options.outDir = flags.out;
   return options;
 }
 
@@ -211,22 +212,29 @@ void writePicture(const std::filesystem::path& path, const FogResult& result, co
     writeFogExr(path, result.view, inScattered);
   else
     writePng(path, exposed(composed(result.view, inScattered), result.exposure));
-  std::printf("wrote %s\n", path.string().c_str());
+  say(fmt::format("wrote {}\n", path.string()));
 }
 
 int runFogVerb(const FogFlags& flags) {
-  const FogOptions options = fogOptions(flags);
+  const bool isFolder = !flags.out.empty() && !isPicture(flags.out);
+  for (const std::string& file : {isFolder ? "" : flags.out, flags.json})
+    if (!file.empty()) checkOutput(file);
+  ResultFolder folder(isFolder ? flags.out : "", "results.json");
   const Session session = openSession(flags.scene);
-  const FogResult result = runFog(session, options);
+  FogOptions options = fogOptions(flags, session.scene().originW);
+  options.outDir = folder.aside();
+  FogResult result = runFog(session, options);
+  result.files = folder.files();
   const std::string json = fogJson(session, options, result, commandLine());
   if (!options.outDir.empty()) {
     writeTextFile(options.outDir / "results.json", json);
     writeTextFile(options.outDir / "report.html", reportHtml(options.outDir));
+    folder.publish();
   }
   if (!flags.json.empty()) writeTextFile(flags.json, json);
-  std::fputs(fogTable(session, options, result).c_str(), stdout);
+  say(fogTable(session, options, result));
   if (!options.outDir.empty()) {
-    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
+    say(fmt::format("wrote {0}/report.html, results.json and pictures below {0}\n", flags.out));
   } else if (!flags.out.empty()) {
     const std::filesystem::path path = flags.out;
     writePicture(path, result, result.inScattered.front());

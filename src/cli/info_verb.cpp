@@ -1,11 +1,12 @@
 #include "base/error.h"
+#include "base/terminal.h"
 #include "cli/verbs.h"
 #include "gpu/device.h"
 #include "gpu/shader_compiler.h"
 #include "lab/compare/results.h"
+#include "scene/adjacency.h"
 #include "scene/generate.h"
 
-#include <cstdio>
 #include <memory>
 
 #include <fmt/format.h>
@@ -17,16 +18,16 @@ namespace {
 
 void printDevices() {
   const std::vector<gpu::DeviceInfo> devices = gpu::listDevices();
-  fmt::print("gnomon {}\n", gnomonVersion());
-  if (devices.empty()) fmt::print("no Vulkan device; install one with: apt-get install mesa-vulkan-drivers\n");
+  say(fmt::format("gnomon {}\n", gnomonVersion()));
+  if (devices.empty()) say("no Vulkan device; install one with: apt-get install mesa-vulkan-drivers\n");
   for (const gpu::DeviceInfo& device : devices) {
-    fmt::print("device {}\n  {}, Vulkan {}, {}\n", device.name, device.isCpu ? "CPU" : "GPU", device.apiVersion,
-               device.driver);
-    fmt::print("  images to {} texels a side, storage buffers to {} MiB, ordered attachment access: {}\n",
-               device.maxImageDimension2D, device.maxStorageBufferBytes >> 20,
-               device.orderedAttachmentAccess ? "yes" : "no");
+    say(fmt::format("device {}\n  {}, Vulkan {}, {}\n", device.name, device.isCpu ? "CPU" : "GPU", device.apiVersion,
+                    device.driver));
+    say(fmt::format("  images to {} texels a side, storage buffers to {} MiB, ordered attachment access: {}\n",
+                    device.maxImageDimension2D, device.maxStorageBufferBytes >> 20,
+                    device.orderedAttachmentAccess ? "yes" : "no"));
   }
-  fmt::print("shader cache {}\n", gpu::cacheDirectory().empty() ? "off" : gpu::cacheDirectory().string());
+  say(fmt::format("shader cache {}\n", gpu::cacheDirectory().empty() ? "off" : gpu::cacheDirectory().string()));
 }
 
 const char* castsAs(const Scene& scene, const Mesh& mesh) {
@@ -35,16 +36,21 @@ const char* castsAs(const Scene& scene, const Mesh& mesh) {
   return "open (one-sided, but not closed: never culled)";
 }
 
-std::string lightText(const Light& light) {
-  const auto text = [](const glm::vec3& v) { return fmt::format("{:.4g},{:.4g},{:.4g}", v.x, v.y, v.z); };
+std::string placeText(const glm::dvec3& v) {
+  return fmt::format("{:.4g},{:.4g},{:.4g}", v.x, v.y, v.z);
+}
+
+std::string lightText(const Light& light, const glm::dvec3& originW) {
+  const std::string place = placeText(glm::dvec3(light.positionW) + originW),
+                    towards = placeText(glm::dvec3(light.directionW));
   switch (light.type) {
     case LightType::Point:
-      return fmt::format("point at {}, {:g} cd", text(light.positionW), light.intensity);
+      return fmt::format("point at {}, {:g} cd", place, light.intensity);
     case LightType::Spot:
-      return fmt::format("spot at {} towards {}, cone {:.4g} degrees, {:g} cd", text(light.positionW),
-                         text(light.directionW), 2.0f * glm::degrees(light.outerConeRad), light.intensity);
+      return fmt::format("spot at {} towards {}, cone {:.4g} degrees, {:g} cd", place, towards,
+                         2.0f * glm::degrees(light.outerConeRad), light.intensity);
     case LightType::Directional:
-      return fmt::format("directional towards {}, {:g} lx", text(light.directionW), light.intensity);
+      return fmt::format("directional towards {}, {:g} lx", towards, light.intensity);
   }
   return "";
 }
@@ -52,21 +58,29 @@ std::string lightText(const Light& light) {
 void printScene(const std::string& name) {
   const Scene scene = openScene(name);
   const Bounds bounds = computeBounds(scene);
-  fmt::print("{}: {} triangles, {} meshes, {} instances, {} materials, {} textures\n", scene.name, triangleCount(scene),
-             scene.meshes.size(), scene.instances.size(), scene.materials.size(), scene.textures.size());
-  fmt::print("bounds {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g} m, diagonal {:.4g} m\n", bounds.lower.x,
-             bounds.lower.y, bounds.lower.z, bounds.upper.x, bounds.upper.y, bounds.upper.z, bounds.diagonal());
+  say(fmt::format("{}: {} triangles, {} meshes, {} instances, {} materials, {} textures\n", scene.name,
+                  triangleCount(scene), scene.meshes.size(), scene.instances.size(), scene.materials.size(),
+                  scene.textures.size()));
+  say(fmt::format("bounds {} to {} m, diagonal {:.4g} m\n", placeText(glm::dvec3(bounds.lower) + scene.originW),
+                  placeText(glm::dvec3(bounds.upper) + scene.originW), bounds.diagonal()));
   for (const Mesh& mesh : scene.meshes) {
     const Material& material = scene.materials[mesh.material];
-    fmt::print("mesh '{}': {} triangles, {}{}\n", mesh.name, mesh.indices.size() / 3, castsAs(scene, mesh),
-               material.alphaMode == AlphaMode::Mask ? ", alpha mask" : "");
+    const Adjacency adjacency = computeAdjacency(mesh.positions, mesh.indices);
+    say(fmt::format(
+        "mesh '{}': {} triangles, {}{}; {}, {} open edges, {} non-manifold\n", mesh.name, mesh.indices.size() / 3,
+        castsAs(scene, mesh), material.alphaMode == AlphaMode::Mask ? ", alpha mask" : "",
+        adjacency.sheets == 1 ? "1 connected surface" : fmt::format("{} connected surfaces", adjacency.sheets),
+        adjacency.openEdges, adjacency.nonManifoldEdges));
   }
-  for (const Light& light : scene.lights) fmt::print("light '{}': {}\n", light.name, lightText(light));
+  for (const Light& light : scene.lights)
+    say(fmt::format("light '{}': {}\n", light.name, lightText(light, scene.originW)));
   for (const Camera& camera : scene.cameras) {
-    const glm::vec4& eye = camera.worldFromEye[3];
-    fmt::print("camera '{}': at {:.4g},{:.4g},{:.4g}, fov {:.4g} degrees\n", camera.name, eye.x, eye.y, eye.z,
-               glm::degrees(camera.yFovRad));
+    say(fmt::format("camera '{}': at {}, fov {:.4g} degrees\n", camera.name,
+                    placeText(glm::dvec3(glm::vec3(camera.worldFromEye[3])) + scene.originW),
+                    glm::degrees(camera.yFovRad)));
   }
+  for (const std::string& note : scene.notes) say(fmt::format("note: {}\n", note));
+  for (const std::string& note : scene.harmlessNotes) say(fmt::format("note: {}\n", note));
 }
 
 Run addInfo(CLI::App* verb) {

@@ -3,6 +3,10 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/message.h"
+#include "base/suggest.h"
+#include "base/terminal.h"
+#include "cli/memory_limit.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/results/schema.h"
@@ -11,16 +15,60 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 namespace {
 
 using namespace gnomon;
 
+// No flag takes an empty value: a script's variable was not set.
+void refuseEmptyWords(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word.empty()) throw UsageError(fmt::format("the word after '{}' is empty; give a value", argv[i - 1]));
+    if (word.starts_with("--") && word.ends_with('=')) throw UsageError(fmt::format("{} is empty; give a value", word));
+  }
+}
+
+std::string verbNames() {
+  std::string names;
+  for (const Verb& verb : verbs()) names += (names.empty() ? "" : ", ") + std::string(verb.name);
+  return names;
+}
+
+// The first word is a verb, or a flag of the program's own.
+void checkVerb(int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word.starts_with("-")) return;
+  if (word.empty()) throw UsageError("give a subcommand; choose from " + verbNames() + " (see gnomon --help)");
+  if (std::ranges::none_of(verbs(), [&](const Verb& verb) { return verb.name == word; }))
+    throw UsageError(fmt::format("{}: no such subcommand; {}", word, chooseFrom(word, verbNames())));
+}
+
+// What is wrong with a command line that a verb does not understand. Of the words left over the first one is told.
+std::string mistakeIn(const CLI::App& verb, const CLI::ParseError& error) {
+  const std::vector<std::string> left = verb.remaining();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || left.empty())
+    return fmt::format("{} (see gnomon {} --help)", error.what(), verb.get_name());
+  const std::string word = left.front().substr(0, left.front().find('='));
+  if (!word.starts_with("-")) return fmt::format("{}: one word too many (see gnomon {} --help)", word, verb.get_name());
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : verb.get_options())
+    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+  const std::string nearest = nearestName(word, flags);
+  return fmt::format("{}: {} has no such flag{} (see gnomon {} --help)", word, verb.get_name(),
+                     nearest.empty() ? "" : "; did you mean " + nearest + "?", verb.get_name());
+}
+
 int parseAndRun(int argc, char** argv) {
+  refuseEmptyWords(argc, argv);
   CLI::App app("Gnomon measures shadow-map bias for point, spot and directional lights", "gnomon");
   app.set_version_flag("--version", gnomonVersion());
   app.require_subcommand(1);
@@ -35,35 +83,48 @@ int parseAndRun(int argc, char** argv) {
     CLI::App* added = app.add_subcommand(verb.name, verb.sentence);
     runs.emplace_back(added, verb.add(added));
   }
+  checkVerb(argc, argv);
+  const auto isGiven = [](const auto& run) { return run.first->parsed(); };
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::fprintf(stderr, "gnomon: %s (see gnomon --help)\n", error.what());
-    return 2;
+    const auto given = std::ranges::find_if(runs, isGiven);
+    if (error.get_exit_code() != 0) throw UsageError(mistakeIn(given == runs.end() ? app : *given->first, error));
+    std::ostringstream help;  // --help, --version
+    app.exit(error, help, help);
+    say(help.str());
+    return 0;
   }
-  const auto given = std::ranges::find_if(runs, [](const auto& run) { return run.first->parsed(); });
+  const auto given = std::ranges::find_if(runs, isGiven);
   GNOMON_CHECK(given != runs.end());  // require_subcommand saw to it
   return given->second();
+}
+
+// Whatever a library or a file put into a message: one line.
+int complain(const char* message, int exitCode) {
+  std::fprintf(stderr, "gnomon: %s\n", oneLine(message).c_str());
+  return exitCode;
+}
+
+int runAndComplain(int argc, char** argv) {
+  try {
+    const int exitCode = parseAndRun(argc, argv);
+    finishStandardOutput();
+    return exitCode;
+  } catch (const UsageError& error) {
+    return complain(error.what(), 2);
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory; take a smaller --size or --map-size, or a smaller scene", 1);
+  } catch (const std::exception& error) {
+    return complain(error.what(), 1);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  guardStandardStreams();
   setCommandLine(argc, argv);
-  try {
-    return parseAndRun(argc, argv);
-  } catch (const UsageError& error) {
-    std::fprintf(stderr, "gnomon: %s\n", error.what());
-    return 2;
-  } catch (const WorldError& error) {
-    std::fprintf(stderr, "gnomon: %s\n", error.what());
-    return 1;
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "gnomon: out of memory; take a smaller --size or --map-size, or a smaller scene\n");
-    return 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "gnomon: %s\n", error.what());
-    return 1;
-  }
+  const auto work = [&] { return runAndComplain(argc, argv); };
+  return isMemoryLimited() ? runWithinMemoryLimit(work) : work();
 }

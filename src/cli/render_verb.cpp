@@ -1,5 +1,8 @@
 #include "base/error.h"
+#include "base/file.h"
 #include "base/image.h"
+#include "base/terminal.h"
+#include "cli/choice.h"
 #include "cli/method_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/verbs.h"
@@ -24,13 +27,14 @@ struct RenderFlags {
 
 int runRender(const RenderFlags& flags) {
   const std::string extension = std::filesystem::path(flags.out).extension().string();
-  if (extension != ".png" && extension != ".exr")
+  if (extension != ".png" && extension != ".exr" && !isStream(flags.out))
     throw UsageError(fmt::format("-o {}: the name must end in .png or .exr", flags.out));
   CompareOptions options = compareOptions(flags.method);
   if (options.biases.size() > 1 && !options.userBiases.empty())
     options.biases.erase(options.biases.begin(), options.biases.end() - 1);  // a file given is the bias meant
   if (options.maps.size() != 1 || options.biases.size() != 1 || options.filters.size() != 1)
     throw UsageError("render draws one configuration: give one --maps, one --biases and one --filters");
+  checkOutput(flags.out);
   if (extension == ".exr") preloadImages();
   const Session session = openSession(flags.scene);
   const RenderedPicture picture = renderPicture(session, options, flags.show);
@@ -39,19 +43,20 @@ int runRender(const RenderFlags& flags) {
     writeExr(flags.out, picture.exr, picture.channels);
   else
     writePng(flags.out, picture.png);
-  std::printf("wrote %s\n", flags.out.c_str());
+  say(fmt::format("wrote {}\n", flags.out));
   return 0;
 }
 
 Run addRender(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
   addSceneFlags(*verb, flags->scene);
-  addMethodFlags(*verb, flags->method, "spot", "adaptive");
+  addMethodFlags(*verb, flags->method, "spot", kDefaultBias);
   verb->add_option("-o,--out", flags->out, "the picture: .png (8 bits, for viewing) or .exr (linear data)")->required();
   verb->add_option("--show", flags->show,
                    "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
-                   "layer-gap (second depth - first) or texel-density (texels per square metre)")
-      ->check(CLI::IsMember(picturesToShow()))
+                   "layer-gap (second depth - first), ids (the triangle each texel of the map sees) or texel-density "
+                   "(texels per square metre)")
+      ->check(oneOf(picturesToShow()))
       ->capture_default_str();
   return [flags] { return runRender(*flags); };
 }

@@ -1,11 +1,12 @@
 #include "base/file.h"
+#include "base/terminal.h"
 #include "cli/verbs.h"
 #include "lab/page/report.h"
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 namespace gnomon {
@@ -18,8 +19,9 @@ struct ReportFlags {
 };
 
 int runReport(const ReportFlags& flags) {
+  checkOutput(flags.out);
   writeTextFile(flags.out, reportHtml(flags.folder));
-  std::printf("wrote %s\n", flags.out.c_str());
+  say(fmt::format("wrote {}\n", flags.out));
   return 0;
 }
 

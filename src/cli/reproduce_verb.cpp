@@ -1,13 +1,16 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
+#include "base/terminal.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/paper/reproduce.h"
+#include "lab/results/result_folder.h"
 
 #include <cstdio>
 #include <memory>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 namespace gnomon {
@@ -22,15 +25,16 @@ struct ReproduceFlags {
 
 int runReproduce(const ReproduceFlags& flags) {
   ReproduceOptions options = flags.options;
-  options.outDir = flags.out;
+  ResultFolder folder(flags.out, "results.json");
+  options.outDir = folder.aside();
   const Reproduction reproduction = reproduce({.name = flags.device}, options);
   if (!flags.out.empty()) {
     writeTextFile(options.outDir / "results.json", reproductionJson(reproduction, options, commandLine()));
     writeTextFile(options.outDir / "report.html", reproductionHtml(reproduction, options, commandLine()));
+    folder.publish();
   }
-  std::fputs(reproductionText(reproduction).c_str(), stdout);
-  if (!flags.out.empty())
-    std::printf("wrote %s/report.html, results.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
+  say(reproductionText(reproduction));
+  if (!flags.out.empty()) say(fmt::format("wrote {0}/report.html, results.json and pictures below {0}\n", flags.out));
   return 0;
 }
 
@@ -45,7 +49,8 @@ Run addReproduce(CLI::App* verb) {
                    "use this glTF file or generated scene, with its first camera and the first light that each map "
                    "supports; default: a scene for each figure");
   verb->add_option("--scale", flags->options.scale,
-                   "scale factor for the sides of pictures, maps and volumes, for a quick look: 0.05..1")
+                   "scale factor for the sides of pictures, maps and volumes, for a quick look: 0.05..1; the "
+                   "verdicts are meant for 1")
       ->capture_default_str();
   verb->add_option("--repeats", flags->options.repeats, "repetitions of every timed frame; medians are reported")
       ->check(CLI::Range(1, 1000))

@@ -1,10 +1,11 @@
 #include "base/error.h"
+#include "base/file.h"
+#include "base/terminal.h"
 #include "cli/verbs.h"
 #include "scene/generate.h"
 #include "scene/gltf.h"
 #include "vsv/media/generate_density.h"
 
-#include <cstdio>
 #include <memory>
 
 #include <fmt/format.h>
@@ -23,18 +24,19 @@ struct SceneVerbFlags {
 };
 
 int listScenes() {
-  for (const GeneratedScene& scene : generatedScenes()) std::printf("%-14s %s\n", scene.name, scene.provokes);
-  std::printf("\ndensities, with --density NAME:\n");
+  for (const GeneratedScene& scene : generatedScenes()) say(fmt::format("{:<14} {}\n", scene.name, scene.provokes));
+  say("\ndensities, with --density NAME:\n");
   for (const GeneratedDensity& density : generatedDensities())
-    std::printf("%-14s %s\n", density.name, density.sentence);
+    say(fmt::format("{:<14} {}\n", density.name, density.sentence));
   return 0;
 }
 
 // Where to write, which must end in `extension`.
 std::filesystem::path outputOf(const SceneVerbFlags& flags, const char* what, const char* extension) {
   if (flags.out.empty()) throw UsageError(fmt::format("{}: give the output file, -o FILE{}", what, extension));
-  if (std::filesystem::path(flags.out).extension() != extension)
+  if (std::filesystem::path(flags.out).extension() != extension && !isStream(flags.out))
     throw UsageError(fmt::format("-o {}: the name must end in {}", flags.out, extension));
+  checkOutput(flags.out);
   return flags.out;
 }
 
@@ -42,7 +44,7 @@ int writeScene(const SceneVerbFlags& flags) {
   const std::filesystem::path out = outputOf(flags, fmt::format("scene {}", flags.name).c_str(), ".glb");
   const Scene scene = openScene(flags.name);
   saveGlb(scene, out);
-  std::printf("wrote %s: %llu triangles\n", flags.out.c_str(), static_cast<unsigned long long>(triangleCount(scene)));
+  say(fmt::format("wrote {}: {} triangles\n", flags.out, triangleCount(scene)));
   return 0;
 }
 
@@ -53,8 +55,7 @@ int writeDensity(const SceneVerbFlags& flags) {
   const std::filesystem::path out = outputOf(flags, fmt::format("--density {}", flags.density).c_str(), ".vdb");
   const Bounds boundsW = computeBounds(openScene(flags.densityFor));
   const DensitySummary summary = writeGeneratedDensity(flags.density, boundsW, flags.seed, out);
-  std::printf("wrote %s: %llu voxels of %.3g m\n", flags.out.c_str(), static_cast<unsigned long long>(summary.voxels),
-              summary.voxelMetres);
+  say(fmt::format("wrote {}: {} voxels of {:.3g} m\n", flags.out, summary.voxels, summary.voxelMetres));
   return 0;
 }
 

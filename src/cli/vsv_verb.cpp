@@ -1,10 +1,12 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
+#include "base/terminal.h"
 #include "cli/map_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
+#include "lab/results/result_folder.h"
 #include "lab/volume/volume_report.h"
 #include "vsv/volume_parameterization.h"
 
@@ -28,15 +30,15 @@ struct VsvFlags {
   std::optional<double> vdbVoxel;
 };
 
-VolumeOptions volumeOptions(const VsvFlags& flags) {
+VolumeOptions volumeOptions(const VsvFlags& flags, const std::filesystem::path& outDir) {
   VolumeOptions options{.map = flags.map.options,
                         .mapSide = flags.map.mapSize,
                         .cull = parseCullMode(flags.map.cull),
                         .validate = flags.validate,
-                        .outDir = flags.out,
+                        .outDir = outDir,
                         .vdb = flags.vdb,
                         .command = commandLine()};
-  if (!flags.vdb.empty() && options.vdb.extension() != ".vdb")
+  if (!flags.vdb.empty() && options.vdb.extension() != ".vdb" && !isStream(options.vdb))
     throw UsageError(fmt::format("--vdb {}: the name must end in .vdb", flags.vdb));
   if (flags.vdbVoxel) {
     if (flags.vdb.empty()) throw UsageError("--vdb-voxel needs a --vdb");
@@ -48,16 +50,19 @@ VolumeOptions volumeOptions(const VsvFlags& flags) {
 }
 
 int runVsv(const VsvFlags& flags) {
-  const VolumeOptions options = volumeOptions(flags);
+  for (const std::string& file : {flags.json, flags.vdb})
+    if (!file.empty()) checkOutput(file);
+  ResultFolder folder(flags.out, "volume.json");
+  const VolumeOptions options = volumeOptions(flags, folder.aside());
   if (!flags.out.empty()) preloadImages();
   const Session session = openSession(flags.scene);
   const VolumeResult result = examineVolume(session, options);
   const std::string json = volumeJson(session, options, result);
   if (!flags.out.empty()) writeTextFile(options.outDir / "volume.json", json);
+  folder.publish();
   if (!flags.json.empty()) writeTextFile(flags.json, json);
-  std::fputs(volumeTable(session, options, result).c_str(), stdout);
-  if (!flags.out.empty())
-    std::printf("wrote %s/volume.json and pictures below %s\n", flags.out.c_str(), flags.out.c_str());
+  say(volumeTable(session, options, result));
+  if (!flags.out.empty()) say(fmt::format("wrote {0}/volume.json and pictures below {0}\n", flags.out));
   if (result.sound()) return 0;
   std::fprintf(stderr,
                "gnomon: the volume differs from the CPU's rebuild from the same depth map: see 'same map' above\n");

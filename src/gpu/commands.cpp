@@ -27,7 +27,8 @@ void recordFullBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 readers) 
 }
 
 bool takesBuffer(VkDescriptorType type) {
-  return type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER || type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  return type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER || type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ||
+         type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 }
 
 const char* typeName(VkDescriptorType type) {
@@ -36,6 +37,8 @@ const char* typeName(VkDescriptorType type) {
       return "storage buffer";
     case VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER:
       return "uniform buffer";
+    case VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER:
+      return "texel buffer";
     case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
       return "storage image";
     default:
@@ -94,6 +97,7 @@ void recordProgram(const Device& device, VkCommandBuffer commands, const Program
   const std::vector<ProgramInterface::Binding>& declared = program.interface().bindings;
   std::vector<VkDescriptorBufferInfo> buffers(declared.size());
   std::vector<VkDescriptorImageInfo> images(declared.size());
+  std::vector<VkBufferView> texels(declared.size());
   std::vector<VkWriteDescriptorSet> writes(declared.size());
   for (size_t i = 0; i < declared.size(); ++i) {
     const Binding& binding = *findBinding(given, declared[i].index);
@@ -102,7 +106,11 @@ void recordProgram(const Device& device, VkCommandBuffer commands, const Program
     write.dstBinding = declared[i].index;
     write.descriptorCount = 1;
     write.descriptorType = declared[i].type;
-    if (binding.buffer) {
+    if (declared[i].type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) {
+      GNOMON_CHECK(binding.buffer->view() != VK_NULL_HANDLE);
+      texels[i] = binding.buffer->view();
+      write.pTexelBufferView = &texels[i];
+    } else if (binding.buffer) {
       GNOMON_CHECK(binding.buffer->handle() != VK_NULL_HANDLE);
       buffers[i] = {binding.buffer->handle(), 0, VK_WHOLE_SIZE};
       write.pBufferInfo = &buffers[i];

@@ -103,6 +103,7 @@ DeviceInfo describe(VkPhysicalDevice device) {
   info.maxImageLayers = core.limits.maxImageArrayLayers;
   info.maxPushConstantBytes = core.limits.maxPushConstantsSize;
   info.maxStorageBufferBytes = core.limits.maxStorageBufferRange;
+  info.maxTexelBufferElements = core.limits.maxTexelBufferElements;
   if (core.apiVersion < VK_API_VERSION_1_3) return info;
   VkPhysicalDeviceVulkan12Properties v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
   VkPhysicalDeviceVulkan11Properties v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES, &v12};

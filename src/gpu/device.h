@@ -32,6 +32,7 @@ struct DeviceInfo {
   uint32_t maxImageLayers = 0;
   uint32_t maxPushConstantBytes = 0;
   uint64_t maxStorageBufferBytes = 0;
+  uint32_t maxTexelBufferElements = 0;
   uint64_t maxAllocationBytes = 0;
   bool mapsDeviceMemory = true;  // where the driver offers it
   bool tessellation = false;

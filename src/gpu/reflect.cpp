@@ -54,11 +54,13 @@ ProgramInterface::Binding bindingOf(spvc_compiler compiler, const spvc_reflected
   ProgramInterface::Binding binding;
   binding.index = spvc_compiler_get_decoration(compiler, resource.id, SpvDecorationBinding);
   binding.type = type;
+  const spvc_type handle = spvc_compiler_get_type_handle(compiler, resource.type_id);
+  if (type == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE && spvc_type_get_image_dimension(handle) == SpvDimBuffer)
+    binding.type = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
   binding.stages = stage;
   // A block is known by its instance name, or else by its block name.
   const char* instance = spvc_compiler_get_name(compiler, resource.id);
   binding.name = instance && *instance ? instance : resource.name;
-  const spvc_type handle = spvc_compiler_get_type_handle(compiler, resource.type_id);
   binding.repeats = type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER &&
                     spvc_type_get_image_dimension(handle) == SpvDim2D &&
                     spvc_type_get_image_arrayed(handle) == SPVC_FALSE;

@@ -206,6 +206,16 @@ Buffer::Buffer(const Device& device, const BufferDesc& desc) : size_(desc.size =
   Allocation allocation = allocate(device, desc.name, needs, desc.memory);
   memory_ = std::move(allocation.memory);
   GNOMON_VK_CHECK(vkBindBufferMemory(device.handle(), handle, memory_.get(), 0));
+  if (desc.texels != VK_FORMAT_UNDEFINED) {
+    VkBufferViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+    viewInfo.buffer = handle;
+    viewInfo.format = desc.texels;
+    viewInfo.range = VK_WHOLE_SIZE;
+    VkBufferView view = VK_NULL_HANDLE;
+    GNOMON_VK_CHECK(vkCreateBufferView(device.handle(), &viewInfo, nullptr, &view));
+    view_ = {device.handle(), view};
+    nameObject(device, VK_OBJECT_TYPE_BUFFER_VIEW, view, desc.name);
+  }
   if (!allocation.mappable) return;
   void* mapped = nullptr;
   GNOMON_VK_CHECK(vkMapMemory(device.handle(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped));

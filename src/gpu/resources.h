@@ -3,6 +3,7 @@
 
 #include "gpu/device.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -20,6 +21,8 @@ struct BufferDesc {
   VkDeviceSize size = 0;       // bytes; 0 is made 4, so that an empty array still binds
   VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;  // transfer source and destination are added
   Memory memory = Memory::Device;
+  // Of a texel buffer, which shaders fetch texel by texel (usage VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT).
+  VkFormat texels = VK_FORMAT_UNDEFINED;
 };
 
 class Buffer {
@@ -27,6 +30,7 @@ class Buffer {
   Buffer() = default;
   Buffer(const Device& device, const BufferDesc& desc);
   VkBuffer handle() const { return buffer_.get(); }
+  VkBufferView view() const { return view_.get(); }  // of a texel buffer
   VkDeviceSize size() const { return size_; }
   // Mapped memory: always for Readback, and for Device where the device's memory is host visible and cached
   // (lavapipe, integrated GPUs); else nullptr.
@@ -35,6 +39,7 @@ class Buffer {
  private:
   OwnedChild<VkBuffer, vkDestroyBuffer> buffer_;
   OwnedChild<VkDeviceMemory, vkFreeMemory> memory_;
+  OwnedChild<VkBufferView, vkDestroyBufferView> view_;
   VkDeviceSize size_ = 0;
   std::byte* mapped_ = nullptr;
 };
@@ -81,6 +86,17 @@ template <typename T>
 Buffer createBufferWith(const Device& device, const char* name, const std::vector<T>& values,
                         VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {
   Buffer buffer(device, {.name = name, .size = values.size() * sizeof(T), .usage = usage});
+  if (!values.empty()) upload(device, buffer, std::as_bytes(std::span(values)));
+  return buffer;
+}
+
+// A texel buffer, one texel of the format a value.
+template <typename T>
+Buffer createTexelsWith(const Device& device, const char* name, VkFormat format, const std::vector<T>& values) {
+  Buffer buffer(device, {.name = name,
+                         .size = std::max<size_t>(values.size(), 1) * sizeof(T),
+                         .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                         .texels = format});
   if (!values.empty()) upload(device, buffer, std::as_bytes(std::span(values)));
   return buffer;
 }

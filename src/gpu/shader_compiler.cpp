@@ -155,7 +155,12 @@ std::string errorLines(const std::string& path, const char* log) {
     if (!line.starts_with(kError)) continue;
     line.remove_prefix(kError.size());
     if (line.find(" compilation errors.") != std::string_view::npos) continue;
-    messages.emplace_back(line);
+    // Of functions that call each other, the next line has the names.
+    constexpr std::string_view kLink = "Linking ";
+    const bool isCut = line.ends_with(':') && !rest.empty();
+    const std::string_view more = isCut ? rest.substr(std::min(rest.find_first_not_of(" \t\n"), rest.size())) : "";
+    messages.push_back((line.starts_with(kLink) ? path + ": " : "") + std::string(line) + (isCut ? " " : "") +
+                       std::string(more.substr(0, more.find('\n'))));
   }
   if (messages.empty()) return fmt::format("{}: glslang gave no message", path);
   return fmt::format("{}", fmt::join(messages, "; "));

@@ -6,6 +6,7 @@
 #include "shared/bias.glsl"
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include <tbb/parallel_for.h>
@@ -94,6 +95,16 @@ std::vector<float> computeFilteredTruth(const Tracer& tracer, const LightModel& 
     }
   });
   return visibility;
+}
+
+double scoredRmse(const Receivers& receivers, std::span<const float> visibility, std::span<const float> truth) {
+  double sum = 0.0;
+  for (size_t i = 0; i < truth.size(); ++i) {
+    if (receivers.states[i] != PixelState::Scored) continue;
+    const double difference = static_cast<double>(visibility[i]) - static_cast<double>(truth[i]);
+    sum += difference * difference;
+  }
+  return std::sqrt(sum / static_cast<double>(receivers.scored));
 }
 
 }  // namespace gnomon

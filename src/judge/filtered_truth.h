@@ -12,11 +12,16 @@
 #include "shadow/parameterization.h"
 #include "truth/visibility.h"
 
+#include <span>
+
 namespace gnomon {
 
 // One value a pixel, 0..1; 1 where there is no surface, 0 where a surface is not scored.
 // All cores; deterministic.
 std::vector<float> computeFilteredTruth(const Tracer& tracer, const LightModel& light, const Receivers& receivers,
                                         const Truth& truth, const FittedMap& fitted, const ChosenFilter& filter);
+
+// Root of the mean squared difference of a visibility from a truth, over the scored pixels.
+double scoredRmse(const Receivers& receivers, std::span<const float> visibility, std::span<const float> truth);
 
 }  // namespace gnomon

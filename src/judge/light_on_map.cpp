@@ -32,6 +32,16 @@ std::vector<glm::dvec3> scoredPoints(const Receivers& receivers) {
   return points;
 }
 
+void addWalks(WalkCounts& counts, const glsl::PixelDiagnosis& pixel) {
+  const uint32_t aborted = pixel.walkSteps >> 20;
+  for (int end = 0; end < glsl::kWalkAborted; ++end) counts.ends[end] += pixel.walkEnds >> (5 * end) & 31u;
+  for (int end = 0; end < glsl::kWalkAborted; ++end) counts.walks += pixel.walkEnds >> (5 * end) & 31u;
+  counts.ends[glsl::kWalkAborted] += aborted;
+  counts.walks += aborted;
+  counts.steps += pixel.walkSteps & 4095u;
+  counts.longest = std::max(counts.longest, pixel.walkSteps >> 12 & 255u);
+}
+
 }  // namespace
 
 Method atDefaults(const BiasMethod& bias, const SceneView& view) {
@@ -144,6 +154,7 @@ LabelledResult LightOnMap::judge(const Method& method) {
     result.verdicts[i] = verdictOf(diagnosis[i]);
     if (receivers().states[i] != PixelState::Scored) continue;
     if ((diagnosis[i].flags & glsl::kPixelGrazing) != 0) ++result.grazing;
+    addWalks(result.walks, diagnosis[i]);
     if (result.verdicts[i] == Verdict::NotAsked) {
       result.edgeOn.push_back(i);
       result.verdicts[i] = truth().lit[i] != 0 ? Verdict::Lit : Verdict::Shadow;

@@ -12,6 +12,9 @@
 #include "judge/shadow_passes.h"
 #include "truth/labels.h"
 
+#include "shared/bias_params.glsl"
+
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -34,6 +37,13 @@ struct MapSetup {
   std::optional<std::vector<glm::dvec3>> receiversW = {};
 };
 
+// What the walks of `witness` came to, of all scored pixels (shared/sheet_walk.glsl).
+struct WalkCounts {
+  size_t walks = 0, steps = 0;
+  uint32_t longest = 0;  // steps
+  std::array<size_t, glsl::kWalkEndCount> ends{};
+};
+
 // One bias on one map, without a filter.
 struct LabelledResult {
   std::vector<float> visibility;  // one a pixel
@@ -43,6 +53,7 @@ struct LabelledResult {
   // rounding, where no light arrives either way. They count as agreeing.
   std::vector<size_t> edgeOn;
   size_t grazing = 0;  // scored pixels whose texel ray does not meet their plane between near and far
+  WalkCounts walks;    // none but of witness
 };
 
 Verdict verdictOf(const glsl::PixelDiagnosis& pixel);

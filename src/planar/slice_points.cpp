@@ -79,7 +79,7 @@ void addWhole(Points& points, const FitInput& input, const AxisFrame& frame, con
 }  // namespace
 
 double leastCasterDepth(const Bounds& sceneBounds) {
-  return kLeastNear * std::max(static_cast<double>(sceneBounds.diagonal()), 1e-6);
+  return kLeastNear * std::max(static_cast<double>(sceneBounds.diagonal()), 1e-30);
 }
 
 std::vector<std::vector<glm::dvec2>> slicePoints(const FitInput& input, const AxisFrame& frame,

@@ -1,6 +1,7 @@
 #include "scene/generate.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "scene/generate/scenes.h"
 #include "scene/gltf.h"
 
@@ -64,15 +65,15 @@ const GeneratedScene* findGeneratedScene(const std::string& name) {
   return nullptr;
 }
 
-Scene openScene(const std::string& nameOrPath) {
+Scene openScene(const std::string& nameOrPath, const GltfOptions& options) {
   if (const GeneratedScene* generated = findGeneratedScene(nameOrPath)) return generated->make();
   if (std::optional<Scene> crowd = openSizedCrowd(nameOrPath)) return std::move(*crowd);
   std::error_code ignored;
-  if (std::filesystem::exists(nameOrPath, ignored)) return loadGltf(nameOrPath);
+  if (std::filesystem::exists(nameOrPath, ignored)) return loadGltf(nameOrPath, options);
   std::string names;
   for (const GeneratedScene& scene : generatedScenes()) names += (names.empty() ? "" : ", ") + std::string(scene.name);
   throw fileError(nameOrPath, "is neither a file nor the name of a generated scene",
-                  fmt::format("give a .gltf or .glb file, or one of: {}", names));
+                  fmt::format("give a .gltf or .glb file, or a generated scene; {}", chooseFrom(nameOrPath, names)));
 }
 
 }  // namespace gnomon

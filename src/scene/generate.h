@@ -1,7 +1,7 @@
 #pragma once
 // The generated scenes: deterministic, with lights and cameras, each designed to provoke one artefact.
 
-#include "scene/scene.h"
+#include "scene/gltf.h"
 
 #include <string>
 #include <vector>
@@ -22,6 +22,6 @@ const GeneratedScene* findGeneratedScene(const std::string& name);
 
 // A generated scene's name (with an optional size for `crowd`, as in "crowd:100000"), or a glTF file.
 // Throws WorldError that lists the names where it is neither.
-Scene openScene(const std::string& nameOrPath);
+Scene openScene(const std::string& nameOrPath, const GltfOptions& options = {});
 
 }  // namespace gnomon

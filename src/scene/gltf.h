@@ -5,17 +5,23 @@
 #include "scene/scene.h"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace gnomon {
 
-// Positions and cameras are taken in their rest pose: animations are not played. Where they would change a shape,
-// skins, morph weights, sparse accessors, GPU instancing and compressed meshes are refused by name. alphaMode BLEND is
-// read as MASK at cutoff 0.5. KHR_texture_transform is applied to the uvs; light ranges are ignored; orthographic
-// cameras, lines and points are passed over. Only textures of base colours are read.
+struct GltfOptions {
+  std::vector<std::filesystem::path> allowedFolders;  // beside the file's own: what its URIs may lead into
+};
+
+// Positions and cameras are taken in their rest pose: animations are not played. Skins and morph weights are refused by
+// name where they would change a shape. alphaMode BLEND is read as MASK at cutoff 0.5. Orthographic cameras, lines and
+// points are passed over. Only textures of base colours are read. Scene::notes tells what a file's reader should know;
+// docs/gltf.md has every extension and attribute, and what becomes of it.
 //
 // Throws WorldError with one line for anything malformed: never crashes, hangs or asks for memory that the
 // file does not back.
-Scene loadGltf(const std::filesystem::path& path);
+Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 // The same from bytes in memory, .glb or .gltf text with embedded buffers; `name` stands for the path in
 // messages. This is what the fuzzer drives.

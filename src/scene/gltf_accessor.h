@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -12,8 +14,12 @@ namespace gnomon {
 
 class AccessorView {
  public:
-  // Refuses sparse accessors, unknown types, strides that overlap and ranges beyond the buffer.
-  AccessorView(const GltfDocument& document, int accessor);
+  // Refuses unknown types, strides that overlap and ranges beyond the buffer. What has no bufferView is zero; what is
+  // sparse is written out.
+  AccessorView(GltfDocument& document, int accessor);
+
+  // `count` elements of floats that lie elsewhere: those of a compressed mesh. `accessor` names them in messages.
+  AccessorView(int accessor, int componentCount, std::vector<float> values);
 
   size_t count() const { return count_; }
   int accessor() const { return accessor_; }
@@ -27,7 +33,10 @@ class AccessorView {
   uint32_t index(size_t i) const;
 
  private:
+  void writeOut(GltfDocument& document, size_t elementSize);
+
   int accessor_ = 0;
+  std::shared_ptr<const std::vector<unsigned char>> owned_;  // where the bytes are no buffer's
   const unsigned char* data_ = nullptr;
   size_t count_ = 0;
   size_t stride_ = 0;  // bytes

@@ -1,6 +1,8 @@
 #include "scene/gltf_check.h"
 
 #include "base/error.h"
+#include "base/message.h"
+#include "scene/gltf_document.h"
 
 #include <algorithm>
 #include <map>
@@ -19,8 +21,8 @@ using nlohmann::json;
 constexpr const char* kRemedy = "export the file again, or check it with the Khronos glTF Validator";
 
 // Natural: an integer from 0 to 2^53. Index: a natural below the size of the root array `detail`. Object,
-// Objects: of the shape `detail`. IndexMap: an object whose values are indices into `detail`.
-enum class Kind { Text, Flag, Number, Natural, Index, Numbers, Indices, Object, Objects, IndexMap };
+// Objects: of the shape `detail`. IndexMap: an object whose values are indices into `detail`; NaturalMap: are naturals.
+enum class Kind { Text, Flag, Number, Natural, Index, Numbers, Indices, Object, Objects, IndexMap, NaturalMap };
 
 struct Rule {
   const char* property;
@@ -51,12 +53,27 @@ const std::map<std::string_view, std::vector<Rule>>& shapes() {
         {"scene", Kind::Index, false, "scenes"},
         {"extensions", Kind::Object, false, "glTF extensions"}}},
       {"asset", {{"version", Kind::Text, kRequired}}},
-      {"buffer", {{"byteLength", Kind::Natural, kRequired}, {"uri", Kind::Text}}},
+      {"buffer",
+       {{"byteLength", Kind::Natural, kRequired},
+        {"uri", Kind::Text},
+        {"extensions", Kind::Object, false, "buffer extensions"}}},
+      {"buffer extensions", {{"EXT_meshopt_compression", Kind::Object, false, "meshopt buffer"}}},
+      {"meshopt buffer", {{"fallback", Kind::Flag}}},
       {"bufferView",
        {{"buffer", Kind::Index, kRequired, "buffers"},
         {"byteOffset", Kind::Natural},
         {"byteLength", Kind::Natural, kRequired},
-        {"byteStride", Kind::Natural}}},
+        {"byteStride", Kind::Natural},
+        {"extensions", Kind::Object, false, "bufferView extensions"}}},
+      {"bufferView extensions", {{"EXT_meshopt_compression", Kind::Object, false, "EXT_meshopt_compression"}}},
+      {"EXT_meshopt_compression",
+       {{"buffer", Kind::Index, kRequired, "buffers"},
+        {"byteOffset", Kind::Natural},
+        {"byteLength", Kind::Natural, kRequired},
+        {"byteStride", Kind::Natural, kRequired},
+        {"count", Kind::Natural, kRequired},
+        {"mode", Kind::Text, kRequired},
+        {"filter", Kind::Text}}},
       {"accessor",
        {{"bufferView", Kind::Index, false, "bufferViews"},
         {"byteOffset", Kind::Natural},
@@ -69,7 +86,10 @@ const std::map<std::string_view, std::vector<Rule>>& shapes() {
        {{"count", Kind::Natural, kRequired},
         {"indices", Kind::Object, kRequired, "sparse part"},
         {"values", Kind::Object, kRequired, "sparse part"}}},
-      {"sparse part", {{"bufferView", Kind::Index, kRequired, "bufferViews"}, {"componentType", Kind::Natural}}},
+      {"sparse part",
+       {{"bufferView", Kind::Index, kRequired, "bufferViews"},
+        {"byteOffset", Kind::Natural},
+        {"componentType", Kind::Natural}}},
       {"image", {{"name", Kind::Text}, {"uri", Kind::Text}, {"bufferView", Kind::Index, false, "bufferViews"}}},
       {"sampler",
        {{"magFilter", Kind::Natural},
@@ -102,13 +122,18 @@ const std::map<std::string_view, std::vector<Rule>>& shapes() {
        {{"attributes", Kind::IndexMap, kRequired, "accessors"},
         {"indices", Kind::Index, false, "accessors"},
         {"material", Kind::Index, false, "materials"},
-        {"mode", Kind::Natural}}},
+        {"mode", Kind::Natural},
+        {"extensions", Kind::Object, false, "primitive extensions"}}},
+      {"primitive extensions", {{"KHR_draco_mesh_compression", Kind::Object, false, "KHR_draco_mesh_compression"}}},
+      {"KHR_draco_mesh_compression",
+       {{"bufferView", Kind::Index, kRequired, "bufferViews"}, {"attributes", Kind::NaturalMap, kRequired}}},
       {"camera",
        {{"name", Kind::Text},
         {"type", Kind::Text, kRequired},
         {"perspective", Kind::Object, false, "perspective"},
         {"orthographic", Kind::Object, false, "orthographic"}}},
-      {"perspective", {{"yfov", Kind::Number, kRequired}, {"znear", Kind::Number, kRequired}}},
+      {"perspective",
+       {{"yfov", Kind::Number, kRequired}, {"znear", Kind::Number, kRequired}, {"aspectRatio", Kind::Number}}},
       {"orthographic",
        {{"xmag", Kind::Number, kRequired},
         {"ymag", Kind::Number, kRequired},
@@ -128,9 +153,11 @@ const std::map<std::string_view, std::vector<Rule>>& shapes() {
         {"extensions", Kind::Object, false, "node extensions"}}},
       {"node extensions",
        {{"KHR_lights_punctual", Kind::Object, false, "light reference"},
-        {"EXT_mesh_gpu_instancing", Kind::Object, false, "nothing"}}},
+        {"KHR_node_visibility", Kind::Object, false, "KHR_node_visibility"},
+        {"EXT_mesh_gpu_instancing", Kind::Object, false, "EXT_mesh_gpu_instancing"}}},
       {"light reference", {{"light", Kind::Natural, kRequired}}},
-      {"nothing", {}},
+      {"KHR_node_visibility", {{"visible", Kind::Flag}}},
+      {"EXT_mesh_gpu_instancing", {{"attributes", Kind::IndexMap, kRequired, "accessors"}}},
       {"scene", {{"name", Kind::Text}, {"nodes", Kind::Indices, false, "nodes"}}},
       {"glTF extensions", {{"KHR_lights_punctual", Kind::Object, false, "KHR_lights_punctual"}}},
       {"KHR_lights_punctual", {{"lights", Kind::Objects, kRequired, "light"}}},
@@ -139,6 +166,7 @@ const std::map<std::string_view, std::vector<Rule>>& shapes() {
         {"type", Kind::Text, kRequired},
         {"color", Kind::Numbers, false, "", 3},
         {"intensity", Kind::Number},
+        {"range", Kind::Number},
         {"spot", Kind::Object, false, "spot"}}},
       {"spot", {{"innerConeAngle", Kind::Number}, {"outerConeAngle", Kind::Number}}},
   };
@@ -207,6 +235,10 @@ class Checker {
         if (!value.is_object()) refuse(named, "is not a JSON object");
         for (auto& [key, entry] : value.items()) checkIndex(entry, fmt::format("{} '{}'", named, key), rule.detail);
         break;
+      case Kind::NaturalMap:
+        if (!value.is_object()) refuse(named, "is not a JSON object");
+        for (auto& [key, entry] : value.items()) checkNatural(entry, fmt::format("{} '{}'", named, key));
+        break;
     }
   }
 
@@ -251,22 +283,23 @@ uint64_t naturalAt(const json& object, const char* property) {
   return it == object.end() ? 0 : it->get<uint64_t>();
 }
 
-void checkExtensions(const json& document, const std::string& fileName) {
-  const auto it = document.find("extensionsRequired");
-  if (it == document.end()) return;
-  if (!it->is_array()) throw fileError(fileName, "'extensionsRequired' is not an array", kRemedy);
-  // These change the look of a surface, or are read in full; none moves a triangle or makes a hole.
-  static const std::set<std::string> harmless = {"KHR_lights_punctual", "KHR_texture_transform",
-                                                 "KHR_mesh_quantization"};
-  for (const json& entry : *it) {
-    const std::string extension = entry.is_string() ? entry.get<std::string>() : entry.dump();
-    if (harmless.contains(extension) || extension.starts_with("KHR_materials_")) continue;
-    const bool compressed =
-        extension.find("compression") != std::string::npos || extension.find("basisu") != std::string::npos;
-    throw fileError(fileName, fmt::format("requires the extension {}, which Gnomon does not read", extension),
-                    compressed ? "decompress it first, as with `gltf-transform copy` or `gltfpack -noq`"
-                               : "export it without this extension");
-  }
+// EXT_meshopt_compression: a buffer without bytes, which stands for what its views' compressed bytes unfold to.
+bool isFallback(const json& buffer) {
+  const auto extensions = buffer.find("extensions");
+  if (extensions == buffer.end()) return false;
+  const auto meshopt = extensions->find("EXT_meshopt_compression");
+  return meshopt != extensions->end() && meshopt->value("fallback", false);
+}
+
+// glTF 1.0 lists its meshes by name, and so on: of little use to complain of that.
+void checkVersion(const json& document, const std::string& fileName) {
+  const auto asset = document.find("asset");
+  if (asset == document.end() || !asset->is_object()) return;  // told as any other missing property
+  const auto version = asset->find("version");
+  if (version == asset->end() || !version->is_string() || version->get_ref<const std::string&>().starts_with("2."))
+    return;
+  throw fileError(fileName, fmt::format("is glTF {}, not 2.0", oneLine(version->get<std::string>())),
+                  "export it as glTF 2.0, or convert it");
 }
 
 // Each buffer has bytes of its own, and every view lies within its buffer.
@@ -282,7 +315,7 @@ void checkBuffers(const json& document, const std::string& fileName, bool isBina
       throw fileError(fileName, fmt::format("buffer {} has byteLength 0", i), kRemedy);
     const auto uri = buffers[i].find("uri");
     const bool named = uri != buffers[i].end() && !uri->get_ref<const std::string&>().empty();
-    if (!named && !(isBinary && i == 0))
+    if (!named && !(isBinary && i == 0) && !isFallback(buffers[i]))
       throw fileError(fileName, fmt::format("buffer {} has no uri and no bytes in the file", i), kRemedy);
   }
   const json& views = arrayAt("bufferViews");
@@ -301,7 +334,7 @@ void checkBuffers(const json& document, const std::string& fileName, bool isBina
 
 void checkGltfJson(json& document, const std::string& fileName, bool isBinary) {
   if (!document.is_object()) throw fileError(fileName, "the JSON is not an object", kRemedy);
-  checkExtensions(document, fileName);
+  checkVersion(document, fileName);
   Checker(document, fileName).checkObject(document, "glTF", "glTF");
   checkBuffers(document, fileName, isBinary);
 }

@@ -1,14 +1,16 @@
 #include "scene/gltf_document.h"
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/message.h"
+#include "base/parse_json.h"
+#include "scene/gltf_buffers.h"
 #include "scene/gltf_check.h"
+#include "scene/gltf_extensions.h"
 
 #include <bit>
 #include <cstring>
 #include <limits>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
@@ -23,7 +25,7 @@ using nlohmann::json;
 
 constexpr const char* kRemedy = "export the file again, or check it with the Khronos glTF Validator";
 constexpr uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;
-constexpr int kMaxJsonDepth = 64;
+constexpr uint64_t kMostBufferBytes = uint64_t{8} << 30;
 
 // What a file may unfold to: a byte index into a shared strip grows to 108 bytes of flat-shaded triangle; the
 // rest is for accessors that several primitives share.
@@ -66,91 +68,51 @@ Chunks splitGlb(std::string_view bytes, const std::string& name) {
   return chunks;
 }
 
-json parseJson(std::string_view text, const std::string& name) {
-  const auto limitDepth = [&](int depth, json::parse_event_t, json&) {
-    if (depth > kMaxJsonDepth)
-      throw fileError(name, fmt::format("the JSON is nested more than {} deep", kMaxJsonDepth), kRemedy);
-    return true;
-  };
+json parseGltfJson(std::string_view text, const std::string& name) {
   try {
-    return json::parse(text.begin(), text.end(), limitDepth);
+    return parseJson<json>(text, {});
+  } catch (const WorldError& error) {
+    throw fileError(name, error.what(), kRemedy);
   } catch (const json::exception& error) {
     throw fileError(name, "is not valid JSON: " + oneLine(error.what()), kRemedy);
   }
 }
 
-// The JSON and the binary chunk in one .glb again, because tinygltf reads only that.
-std::string joinGlb(std::string text, std::string_view binary) {
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  const size_t padding = (4 - binary.size() % 4) % 4;
-  const uint64_t size = 12 + 8 + text.size() + 8 + binary.size() + padding;
-  std::string glb;
-  glb.reserve(size);
-  const auto addWord = [&](uint64_t word) {
-    const uint32_t narrow = static_cast<uint32_t>(word);
-    glb.append(reinterpret_cast<const char*>(&narrow), sizeof(narrow));
-  };
-  for (uint64_t word : {uint64_t{kGlbMagic}, uint64_t{2}, size, uint64_t{text.size()}, uint64_t{kJsonChunk}})
-    addWord(word);
-  glb += text;
-  addWord(binary.size() + padding);
-  addWord(kBinChunk);
-  glb += binary;
-  glb.append(padding, '\0');
-  return glb;
-}
-
-// The files that a glTF names: regular ones beside or below or above it, each read once, so that neither a
-// device nor a thousand buffers of one file can exhaust memory.
-struct Neighbours {
-  fs::path folder;  // empty: none
-  std::set<fs::path> seen;
-};
-
-bool isReadable(const Neighbours& neighbours, const std::string& path) {
-  std::error_code failure;
-  return !neighbours.folder.empty() && fs::is_regular_file(path, failure);
-}
-
-tinygltf::FsCallbacks callbacksFor(Neighbours& neighbours) {
-  tinygltf::FsCallbacks callbacks{};
-  callbacks.user_data = &neighbours;
-  callbacks.FileExists = [](const std::string& path, void* user) {
-    return isReadable(*static_cast<Neighbours*>(user), path);
-  };
-  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
-  callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* message, const std::string& path,
-                               void* user) {
-    Neighbours& self = *static_cast<Neighbours*>(user);
-    std::error_code failure;
-    if (!isReadable(self, path) || !self.seen.insert(fs::canonical(path, failure)).second) {
-      *message = "two buffers name this file";
-      return false;
-    }
-    const std::string bytes = readFile(path);
-    out->assign(bytes.begin(), bytes.end());
-    return true;
-  };
-  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-    return false;
-  };
-  return callbacks;
-}
-
-bool isDataUri(const std::string& uri) {
-  return uri.starts_with("data:");
-}
-
-// tinygltf takes a data: URI of a type that it does not know for the name of a file.
-void checkBufferUris(const json& document, const std::string& name) {
-  const auto buffers = document.find("buffers");
-  if (buffers == document.end()) return;
-  for (size_t i = 0; i < buffers->size(); ++i) {
-    const std::string uri = (*buffers)[i].value("uri", "");
-    if (isDataUri(uri) && !tinygltf::IsDataURI(uri))
-      throw fileError(name, fmt::format("buffer {} has a data: uri of an unknown kind", i),
-                      "use data:application/octet-stream;base64");
+// A glTF 2.0 file's specular-glossiness material is drawn with its diffuse colour, whose alpha makes the holes.
+void useDiffuseAsBaseColor(json& document) {
+  const auto materials = document.find("materials");
+  if (materials == document.end() || !materials->is_array()) return;
+  for (json& material : *materials) {
+    if (!material.is_object() || !material.contains("extensions") || !material["extensions"].is_object()) continue;
+    const auto glossy = material["extensions"].find("KHR_materials_pbrSpecularGlossiness");
+    if (glossy == material["extensions"].end() || !glossy->is_object()) continue;
+    json base = json::object();
+    if (glossy->contains("diffuseFactor")) base["baseColorFactor"] = (*glossy)["diffuseFactor"];
+    if (glossy->contains("diffuseTexture")) base["baseColorTexture"] = (*glossy)["diffuseTexture"];
+    material["pbrMetallicRoughness"] = std::move(base);
   }
+}
+
+// A compressed primitive's indices are with its attributes; its accessor for them has no bytes, which tinygltf refuses.
+void dropDracoIndices(json& document) {
+  const auto meshes = document.find("meshes");
+  if (meshes == document.end()) return;
+  for (json& mesh : *meshes)
+    for (json& primitive : mesh["primitives"])
+      if (primitive.contains("extensions") && primitive["extensions"].contains("KHR_draco_mesh_compression"))
+        primitive.erase("indices");
+}
+
+// tinygltf gets a byte for every buffer: it would read '+' in a URI as a space, know few kinds of data: URI, and read
+// any file.
+json takeBuffers(json& document) {
+  json buffers = json::array();
+  const auto it = document.find("buffers");
+  if (it == document.end()) return buffers;
+  std::swap(*it, buffers);
+  for (size_t i = 0; i < buffers.size(); ++i)
+    it->push_back({{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}});
+  return buffers;
 }
 
 std::vector<GltfImage> takeImages(json& document) {
@@ -168,86 +130,105 @@ std::vector<GltfImage> takeImages(json& document) {
   return images;
 }
 
-std::string percentDecoded(const std::string& uri) {
-  const auto digit = [](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    const char lower = static_cast<char>(c | 0x20);
-    return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
-  };
-  std::string out;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
-    out += escaped ? static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2])) : uri[i];
-    if (escaped) i += 2;
-  }
-  return out;
-}
-
 }  // namespace
 
-std::string oneLine(std::string_view text) {
-  constexpr size_t kLongest = 240;
-  std::string line;
-  for (char c : text.substr(0, text.find('\n'))) line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  if (line.size() > kLongest) line = line.substr(0, kLongest) + "...";
-  while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
-  return line;
-}
-
-GltfDocument::GltfDocument(std::string_view bytes, std::string name, fs::path folder)
-    : name_(std::move(name)), folder_(std::move(folder)), model_(std::make_unique<tinygltf::Model>()) {
+GltfDocument::GltfDocument(std::string_view bytes, std::string name, fs::path folder, GltfOptions options)
+    : name_(std::move(name)),
+      folder_(std::move(folder)),
+      options_(std::move(options)),
+      model_(std::make_unique<tinygltf::Model>()) {
   if (bytes.empty()) refuse("is empty", "name a .gltf or .glb file");
   const bool isBinary = bytes.size() >= 4 && wordAt(bytes, 0) == kGlbMagic;
   const Chunks chunks = isBinary ? splitGlb(bytes, name_) : Chunks{bytes, std::nullopt};
-  json document = parseJson(chunks.json, name_);
+  json document = parseGltfJson(chunks.json, name_);
+  if (document.is_object()) {
+    ExtensionNotes told = checkExtensions(document, name_);
+    notes = std::move(told.notes);
+    harmlessNotes = std::move(told.harmless);
+  }
+  useDiffuseAsBaseColor(document);
   checkGltfJson(document, name_, chunks.binary.has_value());
-  checkBufferUris(document, name_);
+  dropDracoIndices(document);
   images_ = takeImages(document);
+  const json buffers = takeBuffers(document);
 
-  std::string text = document.dump();
-  if (chunks.binary) text = joinGlb(std::move(text), *chunks.binary);
-  if (text.size() > std::numeric_limits<uint32_t>::max()) refuse("is larger than 4 GiB", "split the scene");
-  Neighbours neighbours{folder_, {}};
+  const std::string text = document.dump();
+  if (text.size() > std::numeric_limits<uint32_t>::max()) refuse("has more than 4 GiB of JSON", "split the scene");
   tinygltf::TinyGLTF reader;
-  reader.SetFsCallbacks(callbacksFor(neighbours));
   std::string errors, warnings;
-  const uint32_t size = static_cast<uint32_t>(text.size());
-  // An absolute folder, so that a name is never looked for in the working folder.
-  const std::string base = folder_.empty() ? "" : fs::absolute(folder_).string();
-  const bool read = chunks.binary
-                        ? reader.LoadBinaryFromMemory(model_.get(), &errors, &warnings,
-                                                      reinterpret_cast<const unsigned char*>(text.data()), size, base)
-                        : reader.LoadASCIIFromString(model_.get(), &errors, &warnings, text.data(), size, base);
-  if (!read) refuse("cannot be read as glTF: " + oneLine(errors), kRemedy);
-
-  budget_ = kBytesAlways;
-  for (const tinygltf::Buffer& buffer : model_->buffers) budget_ += kBytesPerByte * buffer.data.size();
+  if (!reader.LoadASCIIFromString(model_.get(), &errors, &warnings, text.data(), static_cast<uint32_t>(text.size()),
+                                  ""))
+    refuse("cannot be read as glTF: " + oneLine(errors), kRemedy);
+  readBuffers(buffers, chunks.binary);
 }
 
 GltfDocument::~GltfDocument() = default;
 
-std::string GltfDocument::imageBytes(int image) const {
+void GltfDocument::readBuffers(const json& buffers, std::optional<std::string_view> binary) {
+  uint64_t total = 0;
+  budget_ = kBytesAlways;
+  for (size_t i = 0; i < buffers.size(); ++i) {
+    const std::string what = fmt::format("buffer {}", i), uri = buffers[i].value("uri", "");
+    const uint64_t size = buffers[i]["byteLength"].get<uint64_t>();
+    std::vector<unsigned char>& data = model_->buffers[i].data;
+    data.clear();
+    if (uri.empty() && !(binary && i == 0)) continue;  // a fallback: its views bring their own bytes
+    const std::string owned = uri.empty() ? std::string() : bytesOfUri(uri, what, name_, folder_, options_);
+    const std::string_view source = uri.empty() ? *binary : std::string_view(owned);
+    if (source.size() < size)
+      refuse(fmt::format("{} has {} bytes, but says {} (cut off?)", what, source.size(), size), kRemedy);
+    total += size;
+    if (total > kMostBufferBytes) refuse("its buffers have more than 8 GiB", "split the scene");
+    data.assign(source.begin(), source.begin() + static_cast<std::ptrdiff_t>(size));
+    budget_ += kBytesPerByte * size;
+  }
+}
+
+std::span<const unsigned char> GltfDocument::viewBytes(int bufferView) {
+  const tinygltf::BufferView& view = model_->bufferViews[bufferView];
+  const auto bytesAt = [&](int buffer, size_t offset, size_t length) {
+    const std::vector<unsigned char>& data = model_->buffers[buffer].data;
+    if (offset > data.size() || length > data.size() - offset)
+      refuse(fmt::format("bufferView {} ends beyond its buffer", bufferView), kRemedy);
+    return std::span(data).subspan(offset, length);
+  };
+  const auto compressed = view.extensions.find("EXT_meshopt_compression");
+  if (compressed == view.extensions.end()) return bytesAt(view.buffer, view.byteOffset, view.byteLength);
+  const auto known = unpackedViews_.find(bufferView);
+  if (known != unpackedViews_.end()) return known->second;
+
+  const tinygltf::Value& value = compressed->second;
+  const auto natural = [&](const char* property) {
+    return value.Has(property) ? static_cast<size_t>(value.Get(property).GetNumberAsDouble()) : size_t{0};
+  };
+  const auto text = [&](const char* property) {
+    return value.Has(property) ? value.Get(property).Get<std::string>() : std::string();
+  };
+  const MeshoptView packed{
+      .mode = text("mode"), .filter = text("filter"), .count = natural("count"), .stride = natural("byteStride")};
+  if (packed.stride > 256 || packed.count > view.byteLength || packed.count * packed.stride != view.byteLength)
+    refuse(fmt::format("bufferView {}: {} compressed elements of {} bytes are not its {} bytes", bufferView,
+                       packed.count, packed.stride, view.byteLength),
+           kRemedy);
+  spend(view.byteLength);
+  try {
+    return unpackedViews_
+        .emplace(bufferView, unpackMeshopt(packed, bytesAt(static_cast<int>(natural("buffer")), natural("byteOffset"),
+                                                           natural("byteLength"))))
+        .first->second;
+  } catch (const std::runtime_error& error) {
+    refuse(fmt::format("bufferView {}: {}", bufferView, error.what()), kRemedy);
+  }
+}
+
+std::string GltfDocument::imageBytes(int image) {
   const GltfImage& source = images_[image];
   if (source.bufferView >= 0) {
-    const tinygltf::BufferView& view = model_->bufferViews[source.bufferView];
-    const std::vector<unsigned char>& data = model_->buffers[view.buffer].data;
-    if (view.byteOffset + view.byteLength > data.size())
-      refuse(fmt::format("image {} ends beyond its buffer", image), kRemedy);
-    return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
+    const std::span<const unsigned char> bytes = viewBytes(source.bufferView);
+    return {bytes.begin(), bytes.end()};
   }
   if (source.uri.empty()) refuse(fmt::format("image {} has neither a uri nor a bufferView", image), kRemedy);
-  if (isDataUri(source.uri)) {
-    std::vector<unsigned char> out;
-    std::string mimeType;
-    if (!tinygltf::IsDataURI(source.uri) || !tinygltf::DecodeDataURI(&out, mimeType, source.uri, 0, false))
-      refuse(fmt::format("image {} has a data: uri that cannot be decoded", image), kRemedy);
-    return {out.begin(), out.end()};
-  }
-  const fs::path path = folder_ / percentDecoded(source.uri);
-  if (!isReadable({folder_, {}}, path.string()))
-    refuse(fmt::format("image {} is the file '{}', which is not there", image, oneLine(source.uri)),
-           "put it beside the glTF file, or embed it");
-  return readFile(path);
+  return bytesOfUri(source.uri, fmt::format("image {}", image), name_, folder_, options_);
 }
 
 void GltfDocument::refuse(const std::string& what, const std::string& remedy) const {

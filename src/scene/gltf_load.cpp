@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/message.h"
+#include "scene/gltf_accessor.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_nodes.h"
@@ -10,10 +12,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <new>
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
+#include <glm/gtc/quaternion.hpp>
 
 namespace gnomon {
 
@@ -39,15 +44,63 @@ void checkMeshNode(const GltfDocument& document, int index) {
   if (!std::all_of(weights.begin(), weights.end(), isZero))
     document.refuse(fmt::format("node {} is morphed, which Gnomon does not read", index),
                     "apply the shape before exporting");
-  if (node.extensions.contains("EXT_mesh_gpu_instancing"))
-    document.refuse(fmt::format("node {} uses EXT_mesh_gpu_instancing, which Gnomon does not read", index),
-                    "expand the instances to nodes before exporting");
 }
 
-// Matrices that squash a mesh flat have no inverse; their instances are baked, so that nobody has to invert them.
+// Matrices that squash a mesh flat have no inverse; their instances are baked, so that nobody has to invert them. The
+// volume that its columns span is compared with their lengths', so that a scene's scale does not matter; and a float
+// must hold it.
 bool isInvertible(const glm::dmat4& matrix) {
-  const double determinant = glm::determinant(glm::dmat3(matrix));
-  return std::isfinite(determinant) && std::abs(determinant) > 1e-18;
+  const glm::dmat3 linear(matrix);
+  const double lengths = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+  const double determinant = std::abs(glm::determinant(linear));
+  return std::isfinite(lengths) && determinant > 1e-9 * lengths && determinant > 1e-30 && determinant < 1e30;
+}
+
+// EXT_mesh_gpu_instancing: a node's mesh, placed once an element of TRANSLATION, ROTATION and SCALE.
+std::vector<PlacedNode> instancesOf(GltfDocument& document, const PlacedNode& placed) {
+  const tinygltf::Node& node = document.model().nodes[placed.node];
+  const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
+  if (extension == node.extensions.end()) return {placed};
+  const tinygltf::Value& attributes = extension->second.Get("attributes");
+  std::optional<size_t> count;
+  const auto find = [&](const char* name, int components) -> std::optional<AccessorView> {
+    if (!attributes.Has(name)) return std::nullopt;
+    AccessorView view(document, attributes.Get(name).GetNumberAsInt());
+    if (view.componentCount() != components || (count && *count != view.count()))
+      document.refuse(fmt::format("node {}: its instances' {} does not fit", placed.node, name), kRemedy);
+    count = view.count();
+    return view;
+  };
+  const auto translations = find("TRANSLATION", 3), rotations = find("ROTATION", 4), scales = find("SCALE", 3);
+  if (!count) return {placed};
+  document.spend(*count * sizeof(PlacedNode));
+  std::vector<PlacedNode> instances(*count, placed);
+  for (size_t i = 0; i < *count; ++i) {
+    glm::dmat4 local(1.0);
+    if (rotations) {
+      const glm::dvec4 q(rotations->floats(i));
+      local = glm::mat4_cast(glm::normalize(glm::dquat(q.w, q.x, q.y, q.z)));
+    }
+    for (int c = 0; c < 3 && scales; ++c) local[c] *= static_cast<double>(scales->floats(i)[c]);
+    if (translations) local[3] = glm::dvec4(glm::dvec3(translations->floats(i)), 1.0);
+    instances[i].worldFromNode = placed.worldFromNode * local;
+    for (int c = 0; c < 4; ++c)
+      for (int r = 0; r < 4; ++r)
+        if (!std::isfinite(instances[i].worldFromNode[c][r]))
+          document.refuse(fmt::format("node {}: its instance {} is placed at infinity", placed.node, i), kRemedy);
+  }
+  return instances;
+}
+
+// The nodes that show a mesh, each as often as it shows it.
+std::vector<PlacedNode> placedMeshes(GltfDocument& document, const std::vector<PlacedNode>& nodes) {
+  std::vector<PlacedNode> placed;
+  for (const PlacedNode& node : nodes) {
+    if (document.model().nodes[node.node].mesh < 0 || !node.visible) continue;
+    const std::vector<PlacedNode> instances = instancesOf(document, node);
+    placed.insert(placed.end(), instances.begin(), instances.end());
+  }
+  return placed;
 }
 
 // Applies the transform in double. A mirror turns every triangle over, so its winding is turned back.
@@ -83,8 +136,8 @@ class GeometryLoader {
     for (size_t i = 0; i < meshes.size(); ++i)
       if (uses_[i].all > 0) loadParts(static_cast<int>(i));
     checkTriangles(nodes);
-    for (const PlacedNode& placed : nodes)
-      if (document_.model().nodes[placed.node].mesh >= 0) addInstances(placed);
+    chooseOrigin(nodes);
+    for (const PlacedNode& placed : nodes) addInstances(placed);
     for (Mesh& mesh : scene_.meshes) mesh.closed = computeClosed(mesh);
   }
 
@@ -106,7 +159,6 @@ class GeometryLoader {
     uint64_t instances = 0;
     for (const PlacedNode& placed : nodes) {
       const int mesh = model.nodes[placed.node].mesh;
-      if (mesh < 0) continue;
       checkMeshNode(document_, placed.node);
       ++uses_[mesh].all;
       if (isInvertible(placed.worldFromNode)) ++uses_[mesh].invertible;
@@ -118,15 +170,17 @@ class GeometryLoader {
 
   void loadParts(int index) {
     const tinygltf::Mesh& source = document_.model().meshes[index];
-    const std::string name = source.name.empty() ? fmt::format("mesh {}", index) : source.name;
+    const std::string name = source.name.empty() ? fmt::format("mesh {}", index) : printable(source.name);
     for (size_t k = 0; k < source.primitives.size(); ++k) {
       const int material = source.primitives[k].material;
       const UvSource uvSource = material < 0 ? UvSource{} : uvSources_[material];
-      std::optional<Mesh> mesh =
-          loadPrimitive(document_, source.primitives[k], uvSource, fmt::format("mesh {}, primitive {}", index, k));
+      const std::string where = fmt::format("mesh {}, primitive {}", index, k);
+      std::optional<Mesh> mesh = loadPrimitive(document_, source.primitives[k], uvSource, where);
       if (!mesh || mesh->indices.empty()) continue;
       mesh->name = source.primitives.size() == 1 ? name : fmt::format("{} {}", name, k);
       mesh->material = material < 0 ? defaultMaterial() : material;
+      if (scene_.materials[mesh->material].alphaMode == AlphaMode::Mask)
+        mesh->material = withAlpha(mesh->material, vertexAlpha(document_, source.primitives[k], where));
       Part part;
       part.mesh = static_cast<int>(scene_.meshes.size());
       part.lower = part.upper = glm::dvec3(mesh->positions[0]);
@@ -137,6 +191,17 @@ class GeometryLoader {
       parts_[index].push_back(part);
       scene_.meshes.push_back(std::move(*mesh));
     }
+  }
+
+  // A material whose alpha is multiplied by that of the vertices.
+  int withAlpha(int material, float alpha) {
+    if (alpha == 1.0f) return material;
+    const auto known = faded_.find({material, alpha});
+    if (known != faded_.end()) return known->second;
+    Material faded = scene_.materials[material];
+    faded.baseColor.w *= alpha;
+    scene_.materials.push_back(std::move(faded));
+    return faded_[{material, alpha}] = static_cast<int>(scene_.materials.size()) - 1;
   }
 
   // glTF's own: white, opaque, single-sided. Added only to a scene that needs it.
@@ -152,7 +217,6 @@ class GeometryLoader {
     uint64_t triangles = 0;
     for (const PlacedNode& placed : nodes) {
       const int mesh = document_.model().nodes[placed.node].mesh;
-      if (mesh < 0) continue;
       for (const Part& part : parts_[mesh]) triangles += scene_.meshes[part.mesh].indices.size() / 3;
     }
     if (triangles == 0) document_.refuse("has no triangles in its scene", "name a file with meshes of triangles");
@@ -160,7 +224,37 @@ class GeometryLoader {
       document_.refuse(fmt::format("has {} triangles, more than 2^31", triangles), "split the scene");
   }
 
-  void addInstances(const PlacedNode& placed) {
+  // Floats far from zero are too coarse for shadows. A scene that lies four times its size or more from the file's
+  // origin gets one of its own, a multiple of a power of two: where the file's coordinates are exact they stay so, and
+  // no coordinate has lost more than three of its bits.
+  void chooseOrigin(const std::vector<PlacedNode>& nodes) {
+    glm::dvec3 lower(std::numeric_limits<double>::max()), upper(std::numeric_limits<double>::lowest());
+    for (const PlacedNode& placed : nodes) {
+      for (const Part& part : parts_[document_.model().nodes[placed.node].mesh]) {
+        for (int corner = 0; corner < 8; ++corner) {
+          const glm::dvec3 point(placed.worldFromNode * glm::dvec4(cornerOf(part, corner), 1.0));
+          lower = glm::min(lower, point);
+          upper = glm::max(upper, point);
+        }
+      }
+    }
+    const double size = glm::length(upper - lower);
+    if (!(size > 0.0) || !std::isfinite(size)) return;
+    const double step = std::exp2(std::ceil(std::log2(8.0 * size)));
+    scene_.originW = glm::round(0.5 * (lower + upper) / step) * step;
+    if (scene_.originW == glm::dvec3(0.0)) return;
+    // Doubles have 29 bits more than floats.
+    if (glm::length(scene_.originW) > 0x1p29 * size)
+      document_.refuse(
+          fmt::format("lies {:g} m from its origin, too far for its size of {:g} m", glm::length(scene_.originW), size),
+          "move the scene to its origin");
+    document_.notes.push_back(
+        fmt::format("the scene lies {:g} m from its origin; Gnomon works relative to {:g},{:g},{:g}",
+                    glm::length(0.5 * (lower + upper)), scene_.originW.x, scene_.originW.y, scene_.originW.z));
+  }
+
+  void addInstances(PlacedNode placed) {
+    placed.worldFromNode[3] -= glm::dvec4(scene_.originW, 0.0);
     const tinygltf::Node& node = document_.model().nodes[placed.node];
     Uses& uses = uses_[node.mesh];
     ++uses.done;
@@ -171,7 +265,7 @@ class GeometryLoader {
       checkBounds(part, placed);
       Instance instance;
       instance.mesh = part.mesh;
-      instance.name = node.name.empty() ? scene_.meshes[part.mesh].name : node.name;
+      instance.name = node.name.empty() ? scene_.meshes[part.mesh].name : printable(node.name);
       if (shared) {
         instance.worldFromMesh = glm::mat4(placed.worldFromNode);
       } else {
@@ -191,13 +285,15 @@ class GeometryLoader {
     return static_cast<int>(scene_.meshes.size()) - 1;
   }
 
+  static glm::dvec3 cornerOf(const Part& part, int corner) {
+    return {corner & 1 ? part.upper.x : part.lower.x, corner & 2 ? part.upper.y : part.lower.y,
+            corner & 4 ? part.upper.z : part.lower.z};
+  }
+
   // The corners of the mesh's own bounds, placed, enclose all of its vertices.
   void checkBounds(const Part& part, const PlacedNode& placed) const {
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 point(corner & 1 ? part.upper.x : part.lower.x, corner & 2 ? part.upper.y : part.lower.y,
-                             corner & 4 ? part.upper.z : part.lower.z);
-      checkNear(document_, glm::dvec3(placed.worldFromNode * glm::dvec4(point, 1.0)), placed.node);
-    }
+    for (int corner = 0; corner < 8; ++corner)
+      checkNear(document_, glm::dvec3(placed.worldFromNode * glm::dvec4(cornerOf(part, corner), 1.0)), placed.node);
   }
 
   GltfDocument& document_;
@@ -205,23 +301,27 @@ class GeometryLoader {
   std::vector<UvSource> uvSources_;
   std::vector<Uses> uses_;                // of each glTF mesh, by nodes of the scene
   std::vector<std::vector<Part>> parts_;  // of each glTF mesh
+  std::map<std::pair<int, float>, int> faded_;
   int defaultMaterial_ = -1;
 };
 
 Scene sceneOf(GltfDocument& document) {
   Scene scene;
-  scene.name = std::filesystem::path(document.name()).stem().string();
+  scene.name = printable(std::filesystem::path(document.name()).stem().string());
   std::vector<UvSource> uvSources = loadMaterials(document, scene);
   const std::vector<PlacedNode> nodes = placeNodes(document);
-  GeometryLoader(document, scene, std::move(uvSources)).load(nodes);
+  GeometryLoader(document, scene, std::move(uvSources)).load(placedMeshes(document, nodes));
   loadLightsAndCameras(document, nodes, scene);
+  scene.notes = document.notes;
+  scene.harmlessNotes = document.harmlessNotes;
   return scene;
 }
 
 // tinygltf and the standard library throw what they like; a person gets one line about the file.
-Scene loadBytes(std::string_view bytes, const std::string& name, const std::filesystem::path& folder) {
+Scene loadBytes(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
+                const GltfOptions& options) {
   try {
-    GltfDocument document(bytes, name, folder);
+    GltfDocument document(bytes, name, folder, options);
     return sceneOf(document);
   } catch (const WorldError& error) {
     const std::string_view message = error.what();
@@ -237,14 +337,14 @@ Scene loadBytes(std::string_view bytes, const std::string& name, const std::file
 
 }  // namespace
 
-Scene loadGltf(const std::filesystem::path& path) {
+Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
   const std::string bytes = readFile(path);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  return loadBytes(bytes, path.string(), folder);
+  return loadBytes(bytes, path.string(), folder, options);
 }
 
 Scene loadGltfFromMemory(const unsigned char* bytes, size_t size, const std::string& name) {
-  return loadBytes({reinterpret_cast<const char*>(bytes), size}, name, {});
+  return loadBytes({reinterpret_cast<const char*>(bytes), size}, name, {}, {});
 }
 
 }  // namespace gnomon

@@ -2,11 +2,11 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "base/message.h"
 
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -55,13 +55,13 @@ std::optional<Size> pixelSize(const std::string& bytes) {
 
 class TextureLoader {
  public:
-  TextureLoader(const GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
+  TextureLoader(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
 
   // Adds a glTF texture to the scene. Textures of one image share its texels.
   void load(int texture) {
     const tinygltf::Texture& source = document_.model().textures[texture];
     if (source.source < 0)
-      document_.refuse(fmt::format("texture {} has no PNG or JPEG image", texture), "export it with one");
+      document_.refuse(fmt::format("texture {} has no PNG or JPEG image", texture), remedyFor(source));
     glsl::TextureInfo info = loadImage(source.source);
     applySampler(source.sampler, info);
     textures_.emplace(texture, static_cast<int>(scene_.textures.size()));
@@ -71,7 +71,14 @@ class TextureLoader {
   // Index into Scene::textures of a glTF texture that has been loaded.
   int indexOf(int texture) const { return textures_.at(texture); }
 
+  bool has(int texture) const { return textures_.contains(texture); }
+
  private:
+  static std::string remedyFor(const tinygltf::Texture& source) {
+    const bool basis = source.extensions.contains("KHR_texture_basisu");
+    return basis ? "decompress it first, as with `gltf-transform ktxdecompress`" : "convert it to PNG or JPEG";
+  }
+
   glsl::TextureInfo loadImage(int image) {
     const auto known = images_.find(image);
     if (known != images_.end()) return known->second;
@@ -91,6 +98,7 @@ class TextureLoader {
     info.firstTexel = static_cast<uint32_t>(scene_.texels.size());
     info.width = decoded.width;
     info.height = decoded.height;
+    if (pixels > scene_.texels.size()) scene_.texels.reserve(scene_.texels.size() + pixels);
     for (size_t i = 0; i < decoded.values.size(); i += 4) {
       const uint8_t* p = decoded.values.data() + i;
       scene_.texels.push_back(static_cast<uint32_t>(p[0]) | static_cast<uint32_t>(p[1]) << 8 |
@@ -116,7 +124,7 @@ class TextureLoader {
     if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) info.filterMode = glsl::kTexFilterNearest;
   }
 
-  const GltfDocument& document_;
+  GltfDocument& document_;
   Scene& scene_;
   std::map<int, int> textures_;
   std::map<int, glsl::TextureInfo> images_;
@@ -125,6 +133,7 @@ class TextureLoader {
 // KHR_texture_transform: uv' = translation * rotation * scale * uv, with a rotation that turns v towards -u.
 UvSource uvSourceOf(const tinygltf::TextureInfo& info) {
   UvSource source;
+  source.read = info.index >= 0;
   source.set = info.texCoord;
   const auto it = info.extensions.find("KHR_texture_transform");
   if (it == info.extensions.end()) return source;
@@ -143,7 +152,7 @@ UvSource uvSourceOf(const tinygltf::TextureInfo& info) {
   return source;
 }
 
-Material materialOf(const GltfDocument& document, const tinygltf::Material& source, int index) {
+Material materialOf(GltfDocument& document, const tinygltf::Material& source, int index) {
   Material material;
   material.name = source.name;
   const std::vector<double>& factor = source.pbrMetallicRoughness.baseColorFactor;
@@ -162,6 +171,10 @@ Material materialOf(const GltfDocument& document, const tinygltf::Material& sour
     material.alphaCutoff = static_cast<float>(source.alphaCutoff);
   } else if (source.alphaMode == "BLEND") {
     material.alphaMode = AlphaMode::Mask;
+    document.notes.push_back(fmt::format(
+        "material {} '{}' is alpha-blended; its shadow is that of a mask: whole where alpha is at least {}, a "
+        "hole below",
+        index, oneLine(source.name), material.alphaCutoff));
   } else if (source.alphaMode != "OPAQUE") {
     document.refuse(fmt::format("material {} has the unknown alphaMode '{}'", index, oneLine(source.alphaMode)),
                     kRemedy);
@@ -171,20 +184,31 @@ Material materialOf(const GltfDocument& document, const tinygltf::Material& sour
 
 }  // namespace
 
-std::vector<UvSource> loadMaterials(const GltfDocument& document, Scene& scene) {
+std::vector<UvSource> loadMaterials(GltfDocument& document, Scene& scene) {
   const std::vector<tinygltf::Material>& sources = document.model().materials;
-  // Those that are used, in the file's order: a saved scene gets its textures back under the same numbers.
-  std::set<int> used;
-  for (const tinygltf::Material& source : sources) used.insert(source.pbrMetallicRoughness.baseColorTexture.index);
-  used.erase(-1);
+  // Those that are used, in the file's order: a saved scene gets its textures back under the same numbers. Where alpha
+  // makes holes a texture must be read; elsewhere a colour stands in for one that cannot be.
+  std::map<int, bool> mustRead;
+  for (const tinygltf::Material& source : sources)
+    if (source.pbrMetallicRoughness.baseColorTexture.index >= 0)
+      mustRead[source.pbrMetallicRoughness.baseColorTexture.index] |= source.alphaMode != "OPAQUE";
   TextureLoader textures(document, scene);
-  for (int texture : used) textures.load(texture);
+  for (const auto& [texture, must] : mustRead) {
+    try {
+      textures.load(texture);
+    } catch (const WorldError& error) {
+      if (must) throw;
+      std::string_view what = error.what();
+      if (what.starts_with(document.name() + ": ")) what.remove_prefix(document.name().size() + 2);
+      document.notes.push_back(fmt::format("{}; drawn in one colour, which changes no shadow", oneLine(what)));
+    }
+  }
 
   std::vector<UvSource> uvSources;
   for (size_t i = 0; i < sources.size(); ++i) {
     Material material = materialOf(document, sources[i], static_cast<int>(i));
     const tinygltf::TextureInfo& texture = sources[i].pbrMetallicRoughness.baseColorTexture;
-    if (texture.index >= 0) material.baseColorTexture = textures.indexOf(texture.index);
+    if (textures.has(texture.index)) material.baseColorTexture = textures.indexOf(texture.index);
     uvSources.push_back(uvSourceOf(texture));
     scene.materials.push_back(std::move(material));
   }

@@ -11,6 +11,6 @@ namespace gnomon {
 
 // Fills materials, textures and texels of the scene, materials in the file's order; alphaMode BLEND becomes
 // Mask at cutoff 0.5, since a shadow map holds no half-transparent surface. Returns one UvSource a material.
-std::vector<UvSource> loadMaterials(const GltfDocument& document, Scene& scene);
+std::vector<UvSource> loadMaterials(GltfDocument& document, Scene& scene);
 
 }  // namespace gnomon

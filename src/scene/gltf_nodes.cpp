@@ -13,7 +13,12 @@ namespace {
 
 constexpr const char* kRemedy = "export the file again, or check it with the Khronos glTF Validator";
 
-constexpr double kFarthest = 1e7;  // metres; beyond, floats are a metre apart
+// Metres. The largest products of coordinates are the squares of a triangle's normal, of the fourth power of a length:
+// (2 * 1e9)^4 = 1.6e37, within a float's 3.4e38.
+constexpr double kFarthest = 1e9;
+
+// What exporters' rounding leaves of an affine matrix's last row.
+constexpr double kAffineRounding = 1e-6;
 
 glm::dmat4 localMatrix(const GltfDocument& document, int index) {
   const tinygltf::Node& node = document.model().nodes[index];
@@ -21,8 +26,11 @@ glm::dmat4 localMatrix(const GltfDocument& document, int index) {
   if (node.matrix.size() == 16) {
     for (int c = 0; c < 4; ++c)
       for (int r = 0; r < 4; ++r) matrix[c][r] = node.matrix[4 * c + r];
-    if (matrix[0][3] != 0.0 || matrix[1][3] != 0.0 || matrix[2][3] != 0.0 || matrix[3][3] != 1.0)
-      document.refuse(fmt::format("node {} has a matrix that is not affine", index), kRemedy);
+    for (int c = 0; c < 4; ++c) {
+      if (!(std::abs(matrix[c][3] - (c == 3 ? 1.0 : 0.0)) <= kAffineRounding))
+        document.refuse(fmt::format("node {} has a matrix that is not affine", index), kRemedy);
+      matrix[c][3] = c == 3 ? 1.0 : 0.0;
+    }
     return matrix;
   }
   if (node.rotation.size() == 4) {
@@ -35,6 +43,11 @@ glm::dmat4 localMatrix(const GltfDocument& document, int index) {
   for (int c = 0; c < 3 && node.scale.size() == 3; ++c) matrix[c] *= node.scale[c];
   for (int r = 0; r < 3 && node.translation.size() == 3; ++r) matrix[3][r] = node.translation[r];
   return matrix;
+}
+
+bool isShown(const tinygltf::Node& node) {
+  const auto it = node.extensions.find("KHR_node_visibility");
+  return it == node.extensions.end() || !it->second.Has("visible") || it->second.Get("visible").Get<bool>();
 }
 
 bool isFinite(const glm::dmat4& matrix) {
@@ -89,25 +102,45 @@ std::vector<int> sceneRoots(const GltfDocument& document) {
 std::vector<PlacedNode> placeNodes(const GltfDocument& document) {
   std::vector<PlacedNode> placed, open;
   const std::vector<int> roots = sceneRoots(document);
-  for (auto it = roots.rbegin(); it != roots.rend(); ++it) open.push_back({*it, localMatrix(document, *it)});
+  const auto openChildren = [&](const PlacedNode& parent, int parentPlace, const std::vector<int>& children) {
+    for (auto it = children.rbegin(); it != children.rend(); ++it)
+      open.push_back({.node = *it,
+                      .worldFromNode = parentPlace < 0
+                                           ? localMatrix(document, *it)  // as it is: 0 * -1 + 0 has lost its sign
+                                           : parent.worldFromNode * localMatrix(document, *it),
+                      .visible = parent.visible && isShown(document.model().nodes[*it]),
+                      .parent = parentPlace});
+  };
+  openChildren(PlacedNode{}, -1, roots);
   while (!open.empty()) {
     const PlacedNode current = open.back();
     open.pop_back();
     if (!isFinite(current.worldFromNode))
       document.refuse(fmt::format("node {} is placed at infinity", current.node), kRemedy);
     placed.push_back(current);
-    const std::vector<int>& children = document.model().nodes[current.node].children;
-    for (auto it = children.rbegin(); it != children.rend(); ++it)
-      open.push_back({*it, current.worldFromNode * localMatrix(document, *it)});
+    openChildren(current, static_cast<int>(placed.size()) - 1, document.model().nodes[current.node].children);
   }
   return placed;
+}
+
+std::string pathOf(const GltfDocument& document, const std::vector<PlacedNode>& nodes, const PlacedNode& placed) {
+  constexpr int kMostNames = 8;
+  std::string path = document.model().nodes[placed.node].name;
+  int names = 1;
+  for (int at = placed.parent; at >= 0 && names < kMostNames; at = nodes[at].parent) {
+    const std::string& name = document.model().nodes[nodes[at].node].name;
+    if (name.empty()) continue;
+    path = path.empty() ? name : name + "/" + path;
+    ++names;
+  }
+  return path;
 }
 
 void checkNear(const GltfDocument& document, const glm::dvec3& point, int node) {
   for (int c = 0; c < 3; ++c)
     if (!(std::abs(point[c]) <= kFarthest))
-      document.refuse(fmt::format("node {} reaches beyond {} m from the origin", node, kFarthest),
-                      "scale or move the scene: glTF's unit is the metre");
+      document.refuse(fmt::format("node {} reaches beyond {} m from the scene's centre", node, kFarthest),
+                      "scale the scene: glTF's unit is the metre");
 }
 
 }  // namespace gnomon

@@ -1,6 +1,7 @@
 #include "scene/gltf_primitive.h"
 
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_draco.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,19 +136,43 @@ void makeUnit(Mesh& mesh) {
     if (broken[i]) mesh.normals[i] = unitOrUp(sums[i]);
 }
 
-AccessorView attributeView(GltfDocument& document, int accessor, int components, size_t count, const char* what) {
-  const AccessorView view(document, accessor);
-  if (view.componentCount() != components)
-    document.refuse(
-        fmt::format("accessor {}: {} has {} components, not {}", accessor, what, view.componentCount(), components),
-        kRemedy);
-  if (view.componentType() == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-    document.refuse(fmt::format("accessor {}: {} is of 32-bit integers", accessor, what), kRemedy);
-  if (view.count() != count)
-    document.refuse(
-        fmt::format("accessor {}: {} has {} elements for {} positions", accessor, what, view.count(), count), kRemedy);
-  return view;
-}
+// A primitive's attributes by name, from its accessors or unpacked from Draco.
+class Attributes {
+ public:
+  Attributes(GltfDocument& document, const tinygltf::Primitive& primitive, const std::string& where)
+      : document_(document), primitive_(primitive), draco_(unpackDraco(document, primitive, where)) {}
+
+  const std::optional<DracoPrimitive>& draco() const { return draco_; }
+
+  std::optional<AccessorView> find(const std::string& name) const {
+    if (draco_) {
+      const auto unpacked = draco_->attributes.find(name);
+      if (unpacked != draco_->attributes.end()) return unpacked->second;
+    }
+    const int* accessor = attributeOf(primitive_, name);
+    if (!accessor) return std::nullopt;
+    return AccessorView(document_, *accessor);
+  }
+
+  // Of this many components and elements.
+  std::optional<AccessorView> find(const std::string& name, int components, size_t count, const char* what) const {
+    std::optional<AccessorView> view = find(name);
+    if (!view) return view;
+    const auto refuse = [&](const std::string& problem) {
+      document_.refuse(fmt::format("accessor {}: {} {}", view->accessor(), what, problem), kRemedy);
+    };
+    if (view->componentCount() != components)
+      refuse(fmt::format("has {} components, not {}", view->componentCount(), components));
+    if (view->componentType() == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) refuse("is of 32-bit integers");
+    if (view->count() != count) refuse(fmt::format("has {} elements for {} positions", view->count(), count));
+    return view;
+  }
+
+ private:
+  GltfDocument& document_;
+  const tinygltf::Primitive& primitive_;
+  std::optional<DracoPrimitive> draco_;
+};
 
 glm::vec4 finiteAt(const GltfDocument& document, const AccessorView& view, size_t i, const char* what) {
   const glm::vec4 value = view.floats(i);
@@ -164,41 +189,60 @@ std::optional<Mesh> loadPrimitive(GltfDocument& document, const tinygltf::Primit
   if (mode < 0 || mode > TINYGLTF_MODE_TRIANGLE_FAN)
     document.refuse(fmt::format("{} has the unknown mode {}", where, mode), kRemedy);
   if (mode < TINYGLTF_MODE_TRIANGLES) return std::nullopt;
-  const int* positionAccessor = attributeOf(primitive, "POSITION");
-  if (!positionAccessor) document.refuse(where + " has no POSITION", kRemedy);
-  const size_t vertexCount = AccessorView(document, *positionAccessor).count();
-  const AccessorView positions = attributeView(document, *positionAccessor, 3, vertexCount, "position");
+  const Attributes attributes(document, primitive, where);
+  std::optional<AccessorView> positions = attributes.find("POSITION");
+  if (!positions) {
+    document.notes.push_back(where + " has no POSITION, and is passed over");
+    return std::nullopt;
+  }
+  const size_t vertexCount = positions->count();
+  positions = attributes.find("POSITION", 3, vertexCount, "position");
 
   Mesh mesh;
-  mesh.indices = trianglesOf(document, readCorners(document, primitive, vertexCount, where), mode, where);
-  const int* normalAccessor = attributeOf(primitive, "NORMAL");
+  std::vector<uint32_t> corners =
+      attributes.draco() ? attributes.draco()->corners : readCorners(document, primitive, vertexCount, where);
+  mesh.indices = attributes.draco() ? std::move(corners) : trianglesOf(document, std::move(corners), mode, where);
+  const std::optional<AccessorView> normals = attributes.find("NORMAL", 3, vertexCount, "normal");
   // Compacting takes a copy of the indices; flat normals unfold every corner to a vertex.
-  document.spend(mesh.indices.size() * (kIndexBytes + (normalAccessor ? 0 : kVertexBytes)));
+  document.spend(mesh.indices.size() * (kIndexBytes + (normals ? 0 : kVertexBytes)));
   const std::vector<uint32_t> used = compactVertices(mesh.indices);
   document.spend(used.size() * kVertexBytes);
 
   mesh.positions.reserve(used.size());
-  for (uint32_t i : used) mesh.positions.emplace_back(finiteAt(document, positions, i, "position"));
+  for (uint32_t i : used) mesh.positions.emplace_back(finiteAt(document, *positions, i, "position"));
   mesh.uvs.assign(used.size(), glm::vec2(0.0f));
-  if (const int* uvAccessor = attributeOf(primitive, fmt::format("TEXCOORD_{}", uvSource.set))) {
-    const AccessorView uvs = attributeView(document, *uvAccessor, 2, vertexCount, "uv");
+  const std::string uvName = fmt::format("TEXCOORD_{}", uvSource.set);
+  if (const auto uvs = attributes.find(uvName, 2, vertexCount, "uv")) {
     const bool plain = uvSource.transform == glm::dmat3(1.0);
     for (size_t k = 0; k < used.size(); ++k) {
-      const glm::vec2 uv(finiteAt(document, uvs, used[k], "uv"));
+      // Without a texture nothing reads them, whatever they are.
+      if (!uvSource.read && !isFinite(uvs->floats(used[k]))) continue;
+      const glm::vec2 uv(finiteAt(document, *uvs, used[k], "uv"));
       mesh.uvs[k] = plain ? uv : glm::vec2(uvSource.transform * glm::dvec3(uv.x, uv.y, 1.0));
       if (!isFinite(glm::vec4(mesh.uvs[k], 0.0f, 0.0f)))
         document.refuse(where + " has a texture transform that leads to infinity", kRemedy);
     }
   }
-  if (!normalAccessor) {
+  if (!normals) {
     makeFlat(mesh);
     return mesh;
   }
-  const AccessorView normals = attributeView(document, *normalAccessor, 3, vertexCount, "normal");
   mesh.normals.reserve(used.size());
-  for (uint32_t i : used) mesh.normals.emplace_back(normals.floats(i));
+  for (uint32_t i : used) mesh.normals.emplace_back(normals->floats(i));
   makeUnit(mesh);
   return mesh;
+}
+
+float vertexAlpha(GltfDocument& document, const tinygltf::Primitive& primitive, const std::string& where) {
+  const std::optional<AccessorView> colors = Attributes(document, primitive, where).find("COLOR_0");
+  if (!colors || colors->componentCount() < 4 || colors->count() == 0) return 1.0f;
+  const float alpha = colors->floats(0).w;
+  for (size_t i = 1; i < colors->count(); ++i)
+    if (colors->floats(i).w != alpha)
+      document.refuse(
+          where + " has a COLOR_0 whose alpha varies, under a material with holes; Gnomon does not read that",
+          "bake it into the base colour's texture");
+  return alpha;
 }
 
 }  // namespace gnomon

@@ -14,6 +14,7 @@ namespace gnomon {
 
 // How a material's base-colour texture reads its uvs: which set, and KHR_texture_transform as uv' = m * (u, v, 1).
 struct UvSource {
+  bool read = false;  // whether there is a texture at all
   int set = 0;
   glm::dmat3 transform{1.0};
 };
@@ -23,5 +24,9 @@ struct UvSource {
 // names the primitive in messages. Mesh space; `closed` and `material` are left to the caller.
 std::optional<Mesh> loadPrimitive(GltfDocument& document, const tinygltf::Primitive& primitive,
                                   const UvSource& uvSource, const std::string& where);
+
+// The alpha of COLOR_0, which multiplies a material's; 1 where there is none. Refused where it varies over the
+// primitive: holes that vertices make are not read.
+float vertexAlpha(GltfDocument& document, const tinygltf::Primitive& primitive, const std::string& where);
 
 }  // namespace gnomon

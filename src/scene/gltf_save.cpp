@@ -2,17 +2,16 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/image.h"
+#include "base/image_png.h"
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <map>
+#include <ostream>
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
-#include <unistd.h>
 
 namespace gnomon {
 
@@ -76,19 +75,12 @@ void addMeshes(tinygltf::Model& model, const Scene& scene) {
   }
 }
 
-// RGBA8 as PNG, which is lossless. OpenImageIO writes files, so it goes through one beside the scene's.
-std::string encodedPng(const Scene& scene, const glsl::TextureInfo& info, const std::filesystem::path& scenePath) {
+// RGBA8 as PNG, which is lossless.
+std::string encodedPng(const Scene& scene, const glsl::TextureInfo& info) {
   Image8 image(info.width, info.height, 4);
   for (size_t i = 0; i < image.values.size(); ++i)
     image.values[i] = static_cast<uint8_t>(scene.texels[info.firstTexel + i / 4] >> (8 * (i % 4)));
-  const std::filesystem::path aside =
-      scenePath.parent_path() /
-      fmt::format(".{}.{}.texture{}.png", scenePath.stem().string(), ::getpid(), info.firstTexel);
-  writePng(aside, image);
-  std::string bytes = readFile(aside);
-  std::error_code ignored;
-  std::filesystem::remove(aside, ignored);
-  return bytes;
+  return encodePng(image);
 }
 
 int wrapOf(int wrap) {
@@ -97,12 +89,12 @@ int wrapOf(int wrap) {
 }
 
 // Textures that share texels share an image.
-void addTextures(tinygltf::Model& model, const Scene& scene, const std::filesystem::path& scenePath) {
+void addTextures(tinygltf::Model& model, const Scene& scene) {
   std::map<uint32_t, int> images;
   for (const glsl::TextureInfo& info : scene.textures) {
     const auto [it, isNew] = images.emplace(info.firstTexel, static_cast<int>(model.images.size()));
     if (isNew) {
-      const std::string png = encodedPng(scene, info, scenePath);
+      const std::string png = encodedPng(scene, info);
       tinygltf::Image image;
       image.mimeType = "image/png";
       image.bufferView = addView(model, png.data(), png.size(), 0);
@@ -199,7 +191,7 @@ void addCameras(tinygltf::Model& model, const Scene& scene) {
   }
 }
 
-tinygltf::Model modelOf(const Scene& scene, const std::filesystem::path& scenePath) {
+tinygltf::Model modelOf(const Scene& scene) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "Gnomon";
@@ -208,7 +200,7 @@ tinygltf::Model modelOf(const Scene& scene, const std::filesystem::path& scenePa
   model.scenes[0].name = scene.name;
   model.defaultScene = 0;
   addMeshes(model, scene);
-  addTextures(model, scene, scenePath);
+  addTextures(model, scene);
   addMaterials(model, scene);
   for (const Instance& instance : scene.instances) {
     tinygltf::Node node;
@@ -225,16 +217,12 @@ tinygltf::Model modelOf(const Scene& scene, const std::filesystem::path& scenePa
 }  // namespace
 
 void saveGlb(const Scene& scene, const std::filesystem::path& path) {
-  const tinygltf::Model model = modelOf(scene, path);
+  const tinygltf::Model model = modelOf(scene);
   if (model.buffers[0].data.size() > std::numeric_limits<uint32_t>::max() - (64u << 20))
     throw fileError(path.string(), "a .glb holds at most 4 GiB", "save a smaller scene");
-  writeAtomically(path, [&](const std::filesystem::path& aside) {
-    std::ofstream out(aside, std::ios::binary);
-    tinygltf::TinyGLTF writer;
-    const bool written = writer.WriteGltfSceneToStream(&model, out, false, true);
-    out.close();
-    if (!written || !out)
-      throw fileError(path.string(), "cannot be written", "check that the folder exists and has room");
+  writeFile(path, [&](std::ostream& out) {
+    if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, true))
+      throw fileError(path.string(), "cannot be written", "tinygltf gives no reason");
   });
 }
 

@@ -6,9 +6,9 @@
 
 namespace gnomon {
 
-// KHR_lights_punctual with its defaults, ranges ignored; perspective cameras made rigid, orthographic ones
-// passed over. Unit directions and rigid matrices stay as they are to the last bit, so that a saved scene
-// loads again equal.
-void loadLightsAndCameras(const GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene);
+// KHR_lights_punctual with its defaults, relative to the scene's origin; ranges are told and otherwise ignored, hidden
+// lights left out. Perspective cameras made rigid, orthographic ones passed over. Names differ afterwards. Unit
+// directions and rigid matrices stay as they are to the last bit, so that a saved scene loads again equal.
+void loadLightsAndCameras(GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene);
 
 }  // namespace gnomon

@@ -55,6 +55,7 @@ struct Light {
   float intensity = 1.0f;                   // candela (point, spot) or lux (directional)
   float innerConeRad = 0.0f;                // half angles from the axis, spot only
   float outerConeRad = 1.047197551f;        // 60 degrees: what a spot map gives a point light
+  std::string path;                         // its node's ancestors and itself, "rig/lamp"; empty: not from a file
 };
 
 struct Camera {
@@ -62,6 +63,8 @@ struct Camera {
   glm::mat4 worldFromEye{1.0f};  // rigid; looks along -z, y up
   float yFovRad = 1.0f;          // vertical, full angle
   float zNear = 0.01f;           // metres
+  double aspect = 0.0;           // width over height that the file asks for; 0: any
+  std::string path;              // as a light's
 };
 
 struct Bounds {
@@ -78,8 +81,14 @@ struct Scene {
   std::vector<glsl::TextureInfo> textures;
   std::vector<uint32_t> texels;  // RGBA8 of all textures, sRGB colour and linear alpha
   std::vector<Instance> instances;
-  std::vector<Light> lights;
-  std::vector<Camera> cameras;
+  std::vector<Light> lights;    // of different names
+  std::vector<Camera> cameras;  // likewise
+  // Where (0, 0, 0) of everything above lies in the file's coordinates. Zero, but for scenes far from their own origin:
+  // floats there are too coarse to hold a shadow.
+  glm::dvec3 originW{0.0};
+  // What a person should know about how the file was read, a line each: first what may change a shadow.
+  std::vector<std::string> notes;
+  std::vector<std::string> harmlessNotes;  // what was passed over because it cannot
 };
 
 // Triangles of all instances.

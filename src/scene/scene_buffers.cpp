@@ -1,5 +1,7 @@
 #include "scene/scene_buffers.h"
 
+#include "scene/mesh_links.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -71,6 +73,8 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
   }
 
   SceneBuffers buffers;
+  std::vector<uint32_t> triangleCounts;  // of each instance
+  std::vector<bool> used(scene.meshes.size(), false);
   std::vector<glsl::SceneInstance> instances;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
@@ -93,16 +97,30 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
       buffers.partBoundsW.push_back(transformed(instance.worldFromMesh, part));
     instances.push_back({.worldFromMesh = instance.worldFromMesh,
                          .firstTriangle = firstIndex / 3,
-                         .material = static_cast<uint32_t>(mesh.material)});
+                         .material = static_cast<uint32_t>(mesh.material),
+                         .firstId = 0});
+    triangleCounts.push_back(static_cast<uint32_t>(mesh.indices.size() / 3));
     buffers.firstTriangles.push_back(firstIndex / 3);
-    buffers.instanced = buffers.instanced || instance.worldFromMesh != glm::mat4(1.0f);
+    buffers.instanced = buffers.instanced || used[instance.mesh] || instance.worldFromMesh != glm::mat4(1.0f);
+    used[instance.mesh] = true;
   }
   std::ranges::stable_sort(buffers.draws, {}, &Draw::masked);
+  const MeshLinks links = linkMeshes(scene, buffers.instanced);
+  // Where they do not fit there are none: VisibilityPass says so to who needs them.
+  const bool fit = links.rows.size() <= device.info().maxTexelBufferElements;
+  buffers.meshRows = gpu::createTexelsWith(device, "mesh rows", VK_FORMAT_R32G32B32A32_UINT,
+                                           fit ? links.rows : std::vector<glsl::MeshRow>());
+  buffers.triangleFacts = gpu::createBufferWith(device, "triangle facts", links.facts);
+  buffers.endMargin = receiverMargin(scene);
+  buffers.ids = numberTriangles(triangleCounts, buffers.firstTriangles, buffers.instanced);
+  for (size_t i = 0; i < instances.size(); ++i) instances[i].firstId = buffers.ids.firstIds[i];
+  buffers.idChunks = gpu::createBufferWith(device, "id chunks", buffers.ids.chunks);
 
   std::vector<glsl::SceneMaterial> materials;
   for (const Material& material : scene.materials) {
     materials.push_back(toGpu(material));
     buffers.textured = buffers.textured || material.baseColorTexture >= 0;
+    buffers.masked = buffers.masked || material.alphaMode == AlphaMode::Mask;
   }
 
   constexpr VkBufferUsageFlags kVertices = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;

@@ -3,6 +3,7 @@
 
 #include "gpu/commands.h"
 #include "scene/scene.h"
+#include "scene/triangle_ids.h"
 
 #include "shared/scene.glsl"
 
@@ -39,9 +40,19 @@ struct SceneBuffers {
   std::vector<Draw> draws;               // opaque first
   std::vector<Bounds> partBoundsW;       // metres
   std::vector<uint32_t> firstTriangles;  // one an instance, in the array of triangles
-  bool instanced = false;                // some matrix is not the identity
-  bool textured = false;                 // some material has a texture
+  // For shared/lookup_tables.glsl, and numbers that go with them.
+  gpu::Buffer meshRows, idChunks, triangleFacts;  // the first a texel buffer; of one row where the scene has too many
+  TriangleIds ids;
+  float endMargin = 0.0f;  // metres
+  bool masked = false;     // some material has holes
+  bool instanced = false;  // some matrix is not the identity, or some mesh has two instances
+  bool textured = false;   // some material has a texture
 };
+
+// Of an instance's triangle, by its place in the array of all triangles.
+inline uint32_t triangleId(const SceneBuffers& scene, uint32_t instance, uint32_t triangle) {
+  return scene.ids.firstIds[instance] + (triangle - scene.firstTriangles[instance]);
+}
 
 SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene);
 

@@ -2,9 +2,9 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/suggest.h"
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -29,6 +29,61 @@ Knob metres(const char* name, float share, const char* sentence) {
 }
 
 }  // namespace
+
+const BiasChoice kEpsilonAt{
+    .name = "epsilon_at",
+    .sentence =
+        "where adaptive evaluates its epsilon: fragment (the paper's text), occluder (its Algorithm 1) or stored (its "
+        "listings)",
+    .member = &BiasParams::epsilonAt,
+    .values = {"occluder", "fragment", "stored"},
+    .numbers = {glsl::kEpsilonAtOccluder, glsl::kEpsilonAtFragment, glsl::kEpsilonAtStored}};
+const BiasChoice kWitnessReach{.name = "witness_reach",
+                               .sentence =
+                                   "texels a side around the receiver that witness asks: 2, or where those have "
+                                   "no witness 4",
+                               .member = &BiasParams::witnessReach,
+                               .values = {"2", "4"},
+                               .numbers = {2, 4}};
+const BiasChoice kPriorityId{.name = "priority_id",
+                             .sentence =
+                                 "whose number the priority buffers compare: the triangle's, the instance's or "
+                                 "the connected surface's (sheet)",
+                             .member = &BiasParams::priorityId,
+                             .values = {"triangle", "instance", "sheet"},
+                             .numbers = {glsl::kPriorityTriangle, glsl::kPriorityInstance, glsl::kPrioritySheet}};
+
+const std::vector<const BiasChoice*>& biasChoices() {
+  static const std::vector<const BiasChoice*> all = {&kEpsilonAt, &kWitnessReach, &kPriorityId};
+  return all;
+}
+
+std::string BiasChoice::flag() const {
+  std::string flag = fmt::format("--{}", name);
+  std::ranges::replace(flag, '_', '-');
+  return flag;
+}
+
+const char* BiasChoice::text(const BiasParams& params) const {
+  const auto found = std::ranges::find(numbers, params.*member);
+  GNOMON_CHECK(found != numbers.end());
+  return values[static_cast<size_t>(found - numbers.begin())];
+}
+
+int BiasChoice::parse(const std::string& text) const {
+  std::string choices;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (text == values[i]) return numbers[i];
+    choices += (choices.empty() ? "" : ", ") + std::string(values[i]);
+  }
+  throw UsageError(fmt::format("{} {}: choose from {}", flag(), text, choices));
+}
+
+BiasParams defaultChoices() {
+  BiasParams params{};
+  for (const BiasChoice* choice : biasChoices()) params.*choice->member = choice->numbers.front();
+  return params;
+}
 
 const std::vector<BiasMethod>& biasMethods() {
   static const std::vector<BiasMethod> methods = {
@@ -103,20 +158,63 @@ const std::vector<BiasMethod>& biasMethods() {
                       "epsilon as a fraction of the scene's diagonal (the paper's K), for all three adaptive biases",
                   .searchLower = 1e-7f,
                   .searchUpper = 1e-1f}},
-       .takesEpsilonAt = true,
+       .choices = {&kEpsilonAt},
        .onVolumes = true},
       {.id = glsl::kBiasAdaptiveClamped,
        .name = "adaptive-clamped",
        .sentence = "adaptive, clamped so as not to lie behind the receiver (the authors' shaders).",
        .knobs = {},
        .sharesKnobsWith = "adaptive",
-       .takesEpsilonAt = true},
+       .choices = {&kEpsilonAt}},
       {.id = glsl::kBiasAdaptiveEhm,
        .name = "adaptive-ehm",
        .sentence = "adaptive, with an epsilon that grows at grazing angles (Ehm et al. 2015).",
        .knobs = {},
        .sharesKnobsWith = "adaptive",
-       .takesEpsilonAt = true},
+       .choices = {&kEpsilonAt}},
+      {.id = glsl::kBiasEevee,
+       .name = "eevee",
+       .sentence = "Along the normal by a texel's radius, and a texel's slope (Blender's EEVEE).",
+       .knobs = {}},
+      {.id = glsl::kBiasGodot,
+       .name = "godot",
+       .sentence = "Along the normal by a texel, and 1% of the map's depth (Godot 4's defaults).",
+       .knobs = {}},
+      {.id = glsl::kBiasBevy,
+       .name = "bevy",
+       .sentence = "Along the normal by texels, and towards the light by centimetres (Bevy's defaults).",
+       .knobs = {}},
+      {.id = glsl::kBiasUnrealVsm,
+       .name = "unreal-vsm",
+       .sentence = "Twice the receiver plane's change to the texel, towards the light (Unreal 5's virtual maps).",
+       .knobs = {}},
+      {.id = glsl::kBiasPriorityBuffer,
+       .name = "priority-buffer",
+       .sentence = "Lit where the texel holds the receiver's own number (Hourcade & Nicolas 1985).",
+       .knobs = {},
+       .channels = glsl::kChannelDepth | glsl::kChannelIds,
+       .choices = {&kPriorityId}},
+      {.id = glsl::kBiasPriorityDepth,
+       .name = "priority-depth",
+       .sentence = "priority-buffer, and depth without a bias where the numbers differ.",
+       .knobs = {},
+       .channels = glsl::kChannelDepth | glsl::kChannelIds,
+       .choices = {&kPriorityId}},
+      {.id = glsl::kBiasTwoPlaneDepth,
+       .name = "two-plane-depth",
+       .sentence = "Lit where the receiver's plane or one of four planes through neighbouring depths says so.",
+       .knobs = {}},
+      {.id = glsl::kBiasTwoPlane,
+       .name = "two-plane",
+       .sentence = "Lit where the receiver's plane or that of the triangle the texel names says so.",
+       .knobs = {},
+       .channels = glsl::kChannelDepth | glsl::kChannelIds},
+      {.id = glsl::kBiasWitness,
+       .name = "witness",
+       .sentence = "In shadow where a named triangle's surface, followed to the receiver, stands before it.",
+       .knobs = {},
+       .channels = glsl::kChannelDepth | glsl::kChannelIds,
+       .choices = {&kWitnessReach}},
   };
   return methods;
 }
@@ -129,8 +227,6 @@ std::string biasNames() {
   return names;
 }
 
-constexpr std::array<const char*, 3> kEpsilonAtNames = {"fragment", "occluder", "stored"};
-
 }  // namespace
 
 const std::vector<Knob>& knobsOf(const BiasMethod& method) {
@@ -140,7 +236,7 @@ const std::vector<Knob>& knobsOf(const BiasMethod& method) {
 const BiasMethod& findBias(const std::string& name) {
   for (const BiasMethod& method : biasMethods())
     if (method.name == name) return method;
-  throw UsageError(fmt::format("--biases {}: no such bias; choose from {}", name, biasNames()));
+  throw UsageError(fmt::format("--biases {}: no such bias; {}", name, chooseFrom(name, biasNames())));
 }
 
 std::vector<const BiasMethod*> parseBiases(const std::string& list) {
@@ -159,7 +255,7 @@ std::vector<const BiasMethod*> parseBiases(const std::string& list) {
 }
 
 BiasParams defaultBiasParams(const BiasMethod& method, float sceneScale) {
-  BiasParams params{.epsilonAt = glsl::kEpsilonAtOccluder};
+  BiasParams params = defaultChoices();
   for (const Knob& knob : knobsOf(method)) valueOf(params, method, knob) = knob.defaultFor(sceneScale);
   return params;
 }
@@ -178,16 +274,6 @@ float& valueOf(BiasParams& params, const BiasMethod& method, const Knob& knob) {
 float valueOf(const BiasParams& params, const BiasMethod& method, const Knob& knob) {
   BiasParams copy = params;
   return valueOf(copy, method, knob);
-}
-
-int parseEpsilonAt(const std::string& name) {
-  for (size_t i = 0; i < kEpsilonAtNames.size(); ++i)
-    if (name == kEpsilonAtNames[i]) return static_cast<int>(i);
-  throw UsageError(fmt::format("--epsilon-at {}: choose from fragment, occluder, stored", name));
-}
-
-const char* epsilonAtName(int epsilonAt) {
-  return kEpsilonAtNames[static_cast<size_t>(epsilonAt)];
 }
 
 }  // namespace gnomon

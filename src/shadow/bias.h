@@ -14,6 +14,22 @@ namespace gnomon {
 
 struct UserBias;
 
+// A choice among a few ways of a method, or of several: a whole number among BiasParams. Its flag and its line in
+// results derive from it.
+struct BiasChoice {
+  const char* name;  // in results: "epsilon_at"; the flag has hyphens
+  const char* sentence;
+  int glsl::BiasParams::*member;
+  std::vector<const char*> values;  // as they are written
+  std::vector<int> numbers;         // what they stand for; the first is the default
+
+  std::string flag() const;  // "--epsilon-at"
+  const char* text(const glsl::BiasParams& params) const;
+  int parse(const std::string& text) const;  // throws UsageError
+};
+extern const BiasChoice kEpsilonAt, kWitnessReach, kPriorityId;
+const std::vector<const BiasChoice*>& biasChoices();
+
 struct BiasMethod {
   int id;  // kBias*
   const char* name;
@@ -21,10 +37,16 @@ struct BiasMethod {
   std::vector<Knob> knobs;                    // at most kMostKnobs; in the order of their places in BiasParams::knobs
   ChannelSet channels = glsl::kChannelDepth;  // what it reads of a texel
   const char* sharesKnobsWith = nullptr;      // the method whose knobs these are, too
-  bool takesEpsilonAt = false;                // --epsilon-at
-  bool onVolumes = false;                     // means something on bits, too (shaders/shared/volume_lookup.glsl)
-  const UserBias* user = nullptr;             // of --bias-file (user_bias.h)
+  std::vector<const BiasChoice*> choices = {};
+  bool onVolumes = false;          // means something on bits, too (shaders/shared/volume_lookup.glsl)
+  const UserBias* user = nullptr;  // of --bias-file (user_bias.h)
+
+  // Looks up more than its tap: shared/surface_bias.glsl, not shared/bias.glsl.
+  bool knowsSurfaces() const { return id >= glsl::kFirstSurfaceBias && id != glsl::kBiasUser; }
 };
+
+// The best one that needs nobody to choose a parameter: what `gnomon render` draws with unless told otherwise.
+inline constexpr const char* kDefaultBias = "adaptive";
 
 // In the order they are listed and run.
 const std::vector<BiasMethod>& biasMethods();
@@ -46,8 +68,7 @@ bool hasKnob(const BiasMethod& method, const Knob& knob);
 float& valueOf(glsl::BiasParams& params, const BiasMethod& method, const Knob& knob);
 float valueOf(const glsl::BiasParams& params, const BiasMethod& method, const Knob& knob);
 
-// "fragment", "occluder", "stored". Throws UsageError.
-int parseEpsilonAt(const std::string& name);
-const char* epsilonAtName(int epsilonAt);
+// All choices at their defaults, and all knobs 0.
+glsl::BiasParams defaultChoices();
 
 }  // namespace gnomon

@@ -12,7 +12,7 @@ namespace {
 struct BoundPush {
   int32_t slice;
   int32_t facing;
-  uint32_t firstTriangle, triangleCount, instance;
+  uint32_t firstTriangle, triangleCount, instance, firstId;
 };
 
 }  // namespace
@@ -31,6 +31,7 @@ std::vector<BoundedDraws::Batch> BoundedDraws::batches(const std::vector<Piece>&
       batches.back().push_back(piece);
       room -= piece.triangleCount;
       rest.firstTriangle += piece.triangleCount;
+      rest.firstId += piece.triangleCount;
       rest.triangleCount -= piece.triangleCount;
     }
   }
@@ -61,7 +62,7 @@ void BoundedDraws::record(gpu::Commands& commands, const SceneBuffers& scene, co
   commands.copy(noArguments_, arguments_, sizeof(glsl::BoundedDraw));
   commands.barrier("the count is zero -> triangles are counted");
   for (const Piece& piece : batch) {
-    const BoundPush push{slice, piece.facing, piece.firstTriangle, piece.triangleCount, piece.instance};
+    const BoundPush push{slice, piece.facing, piece.firstTriangle, piece.triangleCount, piece.instance, piece.firstId};
     const uint32_t groups = (piece.triangleCount + glsl::kBoundGroupSize - 1) / glsl::kBoundGroupSize;
     std::vector<gpu::Binding> bindings = {
         {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},

@@ -22,10 +22,11 @@ class BoundedDraws {
     uint32_t firstTriangle = 0;
     uint32_t triangleCount = 0;
     uint32_t instance = 0;
-    int facing = 0;  // 1: only what winds counter-clockwise seen from the light, -1: only the rest, 0: both
+    uint32_t firstId = 0;  // of firstTriangle (scene/triangle_ids.h)
+    int facing = 0;        // 1: only what winds counter-clockwise seen from the light, -1: only the rest, 0: both
   };
   using Batch = std::vector<Piece>;
-  static constexpr uint32_t kBatchTriangles = 1u << 18;  // 44 MiB with what they may be cut into
+  static constexpr uint32_t kBatchTriangles = 1u << 18;  // 46 MiB with what they may be cut into
   static std::vector<Batch> batches(const std::vector<Piece>& pieces);
 
   // Makes the list of one batch for a slice; a draw may read it after.

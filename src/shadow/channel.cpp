@@ -1,5 +1,7 @@
 #include "shadow/channel.h"
 
+#include "base/check.h"
+
 #include <algorithm>
 #include <sstream>
 
@@ -7,7 +9,9 @@ namespace gnomon {
 
 using glsl::kChannelBackDepth;
 using glsl::kChannelDepth;
+using glsl::kChannelIds;
 using glsl::kChannelSecondDepth;
+using glsl::kChannelSecondIds;
 
 const std::vector<Channel>& channels() {
   static const std::vector<Channel> all = {
@@ -31,6 +35,23 @@ const std::vector<Channel>& channels() {
        .format = VK_FORMAT_D32_SFLOAT,
        .location = kDepthBuffer,
        .binding = glsl::kBindBackDepth},
+      {.bit = kChannelIds,
+       .name = "ids",
+       .pass = ChannelPass::Nearest,
+       .format = VK_FORMAT_R32_UINT,
+       .location = 1,
+       .clear = {.uint32 = {0, 0, 0, 0}},
+       .binding = glsl::kBindIds,
+       .needs = kChannelDepth},
+      {.bit = kChannelSecondIds,
+       .name = "second-ids",
+       .pass = ChannelPass::Second,
+       .format = VK_FORMAT_R32_UINT,
+       .location = 2,
+       .clear = {.uint32 = {0, 0, 0, 0}},
+       .binding = glsl::kBindSecondIds,
+       .needs = kChannelDepth | kChannelSecondDepth,
+       .blends = false},
   };
   return all;
 }
@@ -39,6 +60,22 @@ ChannelSet completed(ChannelSet set) {
   for (const Channel& channel : channels())
     if ((set & channel.bit) != 0) set |= channel.needs;
   return set;
+}
+
+size_t bytesOf(ChannelSet set) {
+  size_t bytes = 0;
+  for (const Channel& channel : channels()) {
+    if ((set & channel.bit) == 0) continue;
+    GNOMON_CHECK(channel.format == VK_FORMAT_D32_SFLOAT || channel.format == VK_FORMAT_R32_SFLOAT ||
+                 channel.format == VK_FORMAT_R32_UINT);
+    bytes += 4;
+  }
+  return bytes;
+}
+
+bool blends(ChannelSet set) {
+  return std::ranges::none_of(channels(),
+                              [&](const Channel& channel) { return (set & channel.bit) != 0 && !channel.blends; });
 }
 
 ChannelSet writtenBy(ChannelPass pass, ChannelSet set) {
@@ -84,6 +121,9 @@ std::string contentName(ChannelSet set) {
       return "two layers";
     case kChannelBackDepth:
       return "back faces";
+    case kChannelDepth | kChannelIds:
+    case kChannelIds:
+      return "one layer, ids";
     default:
       return joined(set);
   }

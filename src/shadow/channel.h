@@ -31,6 +31,7 @@ struct Channel {
   VkClearColorValue clear;  // of a colour
   int binding;              // kBind*: where a tap finds it
   ChannelSet needs;         // channels that must be there for it to be drawn
+  bool blends = true;       // a minimum keeps what the nearest fragment stored; ids must be peeled
 };
 inline constexpr int kDepthBuffer = -1;
 
@@ -38,6 +39,11 @@ const std::vector<Channel>& channels();
 
 // The set with what its channels need: what a map that holds it holds.
 ChannelSet completed(ChannelSet set);
+
+// What a texel takes that stores these, bytes.
+size_t bytesOf(ChannelSet set);
+// Whether a minimum keeps all that a set stores of the second layer.
+bool blends(ChannelSet set);
 
 // Those of a set that a pass writes.
 ChannelSet writtenBy(ChannelPass pass, ChannelSet set);

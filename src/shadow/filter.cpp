@@ -1,6 +1,7 @@
 #include "shadow/filter.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 
 #include <algorithm>
 #include <sstream>
@@ -40,7 +41,7 @@ std::vector<const Filter*> parseFilters(const std::string& list) {
   for (std::string word; std::getline(words, word, ',');) {
     const auto found = std::ranges::find_if(filters(), [&](const Filter& f) { return f.name == word; });
     if (found == filters().end())
-      throw UsageError(fmt::format("--filters {}: no such filter; choose from {}", word, names));
+      throw UsageError(fmt::format("--filters {}: no such filter; {}", word, chooseFrom(word, names)));
     if (std::ranges::find(chosen, &*found) == chosen.end()) chosen.push_back(&*found);
   }
   if (chosen.empty()) throw UsageError(fmt::format("--filters is empty; choose from {}", names));

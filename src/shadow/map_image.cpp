@@ -109,12 +109,20 @@ void MapImage::recordVisibility(gpu::Commands& commands, const SceneBuffers& sce
 
 bool MapImage::recordFrame(gpu::Commands& commands, const SceneBuffers& scene, FramePass& pass,
                            const ShadowLookup& lookup, const glsl::ShadeUniforms& shade) const {
+  // What those read beside the map is bound by the visibility pass alone.
+  if (lookup.bias.knowsSurfaces() || (lookup.bias.channels & (glsl::kChannelIds | glsl::kChannelSecondIds)) != 0)
+    return false;
   pass.record(commands, scene, *this, lookup.bias, lookup.filter, shade);
   return true;
 }
 
 std::vector<float> MapImage::downloadDepth(const gpu::Device& device) const {
   return gpu::downloadAs<float>(device, depth());
+}
+
+std::vector<uint32_t> MapImage::downloadIds(const gpu::Device& device) const {
+  if ((channels_ & glsl::kChannelIds) == 0) return {};
+  return gpu::downloadAs<uint32_t>(device, image(glsl::kChannelIds));
 }
 
 std::vector<float> MapImage::downloadSecondDepth(const gpu::Device& device) const {
@@ -156,6 +164,7 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
     desc.depthWrite = false;
     desc.minBlend = true;
   }
+  desc.depthClamp = true;  // a caster before the near end still casts a shadow
   programs_.push_back(std::make_unique<Entry>(Entry{key, gpu::GraphicsProgram(device_, desc)}));
   return programs_.back()->program;
 }
@@ -193,6 +202,7 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
         if (!wanted(next)) continue;
         for (const SliceCulling::Range& range : shown[next]) {
           push.rangeTriangle = range.firstIndex / 3;
+          push.rangeId = triangleId(scene, scene.draws[next].instance, push.rangeTriangle);
           if (key.needsFragments()) commands.push(drawn, pushed());
           commands.drawIndexed(range.indexCount, 1, range.firstIndex, 0, scene.draws[next].instance);
         }
@@ -217,7 +227,11 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
       const Group group = groupOf(d);
       const int front = group == Group::Sheets ? 0 : group == Group::Solids ? 1 : -1;
       for (const SliceCulling::Range& range : culling.rangesOf(scene, d))
-        pieces.push_back({range.firstIndex / 3, range.indexCount / 3, d.instance, backFaces ? -front : front});
+        pieces.push_back({.firstTriangle = range.firstIndex / 3,
+                          .triangleCount = range.indexCount / 3,
+                          .instance = d.instance,
+                          .firstId = triangleId(scene, d.instance, range.firstIndex / 3),
+                          .facing = backFaces ? -front : front});
     }
     for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
       bounded_.record(commands, scene, slice.map.uniforms(), shaders.bounds, slice.index, batch);
@@ -292,6 +306,7 @@ gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass, Secon
 void MapRenderer::recordSlices(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
                                const LightModel& light, CullMode cull, SecondLayer method, bool multiview) const {
   const int count = multiview ? map.sliceCount() : 1;
+  if (!blends(map.channels())) method = SecondLayer::Peel;
   const auto recordPass = [&](int first, ChannelPass pass) {
     const bool backFaces = pass == ChannelPass::BackFaces;
     const Grouping groupOf = [&](const Draw& draw) {

@@ -18,7 +18,8 @@ enum class SecondLayer {
   // Depth test "greater than the first layer" against its own depth buffer, MIN blending into a float target: no
   // texture is read, and every fragment before the first layer dies in the early depth test.
   Blend,
-  // Depth peeling as in the paper: a fragment shader throws away what equals the first layer.
+  // Depth peeling as in the paper: a fragment shader throws away what equals the first layer. Taken in any case where
+  // the map has channels that do not blend (Channel::blends).
   Peel,
 };
 
@@ -37,6 +38,7 @@ class MapImage final : public Occluders {
   const gpu::Image& secondDepth() const { return image(glsl::kChannelSecondDepth); }
   std::vector<float> downloadDepth(const gpu::Device& device) const override;
   std::vector<float> downloadSecondDepth(const gpu::Device& device) const override;
+  std::vector<uint32_t> downloadIds(const gpu::Device& device) const override;
 
   ChannelSet channels() const { return channels_; }
   // Of one channel, which the map must have; sliceCount slices.

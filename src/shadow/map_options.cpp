@@ -1,6 +1,7 @@
 #include "shadow/map_options.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 
 #include <algorithm>
 #include <charconv>
@@ -38,7 +39,7 @@ std::string MapOption::told(const MapOptions& options) const {
 }
 
 void failChoice(const std::string& flag, const std::string& text, const std::string& names) {
-  throw UsageError(fmt::format("{} {}: no such choice; choose from {}", flag, text, names));
+  throw UsageError(fmt::format("{} {}: no such choice; {}", flag, text, chooseFrom(text, names)));
 }
 
 void checkRange(const std::string& flag, int value, int lower, int upper) {

@@ -1,6 +1,7 @@
 #include "shadow/occluders.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@ namespace gnomon {
 CullMode parseCullMode(const std::string& name) {
   if (name == "solids") return CullMode::Solids;
   if (name == "none") return CullMode::None;
-  throw UsageError(fmt::format("--cull {}: no such mode; choose from solids, none", name));
+  throw UsageError(fmt::format("--cull {}: no such mode; {}", name, chooseFrom(name, "solids, none")));
 }
 
 const char* cullModeName(CullMode mode) {

@@ -67,6 +67,8 @@ class Occluders {
   virtual std::vector<float> downloadDepth(const gpu::Device& device) const = 0;
   // The nearest behind them; empty where it is not stored.
   virtual std::vector<float> downloadSecondDepth(const gpu::Device&) const { return {}; }
+  // Which triangle each depth is of (scene/triangle_ids.h); empty where it is not stored.
+  virtual std::vector<uint32_t> downloadIds(const gpu::Device&) const { return {}; }
 
  protected:
   Occluders(const gpu::Device& device, const FittedMap& fitted, const char* uniformsName);

@@ -46,6 +46,7 @@ struct SlicePush {
   // depth in every pass, so none is needed.
   float tolerance = 0.0f;
   uint32_t rangeTriangle = 0;  // the first of the triangles that are drawn, in the array of all
+  uint32_t rangeId = 0;        // its id (scene/triangle_ids.h)
 };
 
 }  // namespace gnomon

@@ -14,6 +14,8 @@ namespace gnomon {
 
 namespace {
 
+constexpr std::string_view kUserShader = "shared/bias/user.glsl";
+
 std::string trimmed(const std::string& text) {
   const size_t first = text.find_first_not_of(" \t\r");
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
@@ -120,8 +122,21 @@ std::string knobConstant(const std::string& knob) {
   return constant;
 }
 
+gpu::ShaderSource shaderWith(const char* path, const UserBias* bias) {
+  if (bias == nullptr) return {path, {}};
+  return {path, {{std::string(kUserShader), bias->source}, {"shared/bias/user_knobs.glsl", bias->knobsGlsl}}};
+}
+
+// The compiler knows the file by the name it takes the place of.
+std::string inUsersWords(std::string message, const UserBias& bias) {
+  for (size_t at = 0; (at = message.find(kUserShader, at)) != std::string::npos; at += bias.path.size())
+    message.replace(at, kUserShader.size(), bias.path);
+  return message;
+}
+
 std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path) {
-  return readUserBias(path, readFile(path));
+  constexpr uint64_t kMostBytes = 64 << 10;
+  return readUserBias(path, readFile(path, kMostBytes));
 }
 
 std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source) {
@@ -147,24 +162,6 @@ std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, 
   bias->method.sentence = bias->sentence.c_str();
   bias->method.user = bias.get();
   return bias;
-}
-
-namespace {
-
-constexpr const char* kUserPath = "shared/bias/user.glsl";
-
-}  // namespace
-
-gpu::ShaderSource shaderWith(const char* path, const UserBias* bias) {
-  if (bias == nullptr) return {path, {}};
-  return {path, {{kUserPath, bias->source}, {"shared/bias/user_knobs.glsl", bias->knobsGlsl}}};
-}
-
-// The compiler knows the file by the name it takes the place of.
-std::string inUsersWords(std::string message, const UserBias& bias) {
-  for (size_t at = 0; (at = message.find(kUserPath, at)) != std::string::npos; at += bias.path.size())
-    message.replace(at, std::string_view(kUserPath).size(), bias.path);
-  return message;
 }
 
 }  // namespace gnomon

@@ -13,6 +13,7 @@
 //
 // The value of parameter `max-offset` is params.knobs[kUserMaxOffset].
 
+#include "gpu/shader_compiler.h"
 #include "shadow/bias.h"
 
 #include "gpu/shader_compiler.h"
@@ -37,6 +38,7 @@ std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path);
 // The same of a text; `path` is what complaints name.
 std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source);
 
+inline constexpr const char* kVisibilityShader = "shadow/shade_visibility.comp.glsl";
 // A shader of ours with the user's bias in its place; as it is where there is none.
 gpu::ShaderSource shaderWith(const char* path, const UserBias* bias);
 // What the compiler said of it, with the user's file named as the user wrote it.

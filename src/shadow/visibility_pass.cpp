@@ -4,11 +4,22 @@
 #include "base/error.h"
 #include "shadow/user_bias.h"
 
+#include "shared/lookup_tables.glsl"
+
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace gnomon {
 
 namespace {
+
+// As shade_visibility.comp.glsl declares it.
+struct VisibilityPush {
+  glsl::FilterParams filter;
+  float endMargin;
+  uint32_t idShift;
+};
 
 glm::uvec3 groupsFor(int width, int height) {
   const uint32_t side = glsl::kShadeGroupSide;
@@ -22,7 +33,7 @@ VkDeviceSize pixelBytes(int width, int height, size_t each) {
 gpu::ComputeProgram createProgram(const gpu::Device& device, const UserBias* user,
                                   const std::vector<gpu::Specialization>& constants) {
   try {
-    return {device, shaderWith("shadow/shade_visibility.comp.glsl", user), constants};
+    return {device, shaderWith(kVisibilityShader, user), constants};
   } catch (const WorldError& error) {
     if (user == nullptr) throw;
     throw WorldError(inUsersWords(error.what(), *user));
@@ -54,6 +65,8 @@ VisibilityPass::VisibilityPass(const gpu::Device& device, int width, int height)
           {.name = "shade uniforms", .size = sizeof(glsl::ShadeUniforms), .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
       visibility_(device, {.name = "visibility", .size = pixelBytes(width, height, sizeof(float))}),
       diagnosis_(device, {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}),
+      noIds_(device,
+             {.name = "no ids", .format = VK_FORMAT_R32_UINT, .array = true, .usage = VK_IMAGE_USAGE_SAMPLED_BIT}),
       programs_(device) {}
 
 void VisibilityPass::setUniforms(const glsl::ShadeUniforms& uniforms) {
@@ -71,7 +84,8 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
                                                                             {.id = 4, .value = key.instanced},
                                                                             {.id = 5, .value = key.channels},
                                                                             {.id = 6, .value = key.filter},
-                                                                            {.id = 7, .value = key.tapCount}})}));
+                                                                            {.id = 7, .value = key.tapCount},
+                                                                            {.id = 9, .value = key.masked}})}));
   return variants_.back()->program;
 }
 
@@ -79,18 +93,29 @@ void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, 
                             const MapImage& map, const BiasMethod& method, bool diagnose, const ChosenFilter& filter) {
   GNOMON_CHECK(!diagnose || filter.id == glsl::kShadowFilterNone);
   GNOMON_CHECK_EQ(method.channels & ~map.channels(), 0);
-  std::vector<gpu::Binding> bindings = {{glsl::kBindPositions, scene.positions},
-                                        {glsl::kBindTriangles, scene.triangles},
-                                        {glsl::kBindInstances, scene.instances},
-                                        {glsl::kBindMap, map.uniforms()},
-                                        {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
-                                        {glsl::kBindShade, uniforms_},
-                                        {glsl::kBindVisibility, visibility_},
-                                        {glsl::kBindDiagnosis, diagnosis_}};
-  for (const Channel& channel : channels()) bindings.emplace_back(channel.binding, map.imageOrAny(channel.bit));
+  if (method.knowsSurfaces() &&
+      scene.meshRows.size() < scene.triangles.size() / sizeof(uint32_t) * sizeof(glsl::MeshRow))
+    throw WorldError(fmt::format(
+        "--biases {}: the device's texel buffers hold {} rows, and the scene has {}, three a triangle; choose "
+        "another bias",
+        method.name, device_.info().maxTexelBufferElements, scene.triangles.size() / sizeof(uint32_t)));
+  const VisibilityPush push{.filter = filter.params, .endMargin = scene.endMargin, .idShift = scene.ids.shift};
+  std::vector<gpu::Binding> bindings = {
+      {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},
+      {glsl::kBindInstances, scene.instances}, {glsl::kBindUvs, scene.uvs},
+      {glsl::kBindMaterials, scene.materials}, {glsl::kBindTextures, scene.textures},
+      {glsl::kBindTexels, scene.texels},       {glsl::kBindMeshRows, scene.meshRows},
+      {glsl::kBindIdChunks, scene.idChunks},   {glsl::kBindTriangleFacts, scene.triangleFacts},
+      {glsl::kBindMap, map.uniforms()},        {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+      {glsl::kBindShade, uniforms_},           {glsl::kBindVisibility, visibility_},
+      {glsl::kBindDiagnosis, diagnosis_}};
+  for (const Channel& channel : channels()) {
+    const bool lacksIds = channel.format == VK_FORMAT_R32_UINT && (map.channels() & channel.bit) == 0;
+    bindings.emplace_back(channel.binding, lacksIds ? noIds_ : map.imageOrAny(channel.bit));
+  }
   commands.dispatch(program({method.id, diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0,
-                             method.channels, filter.id, filter.tapCount, method.user}),
-                    groupCount_, gpu::asPush(filter.params), bindings);
+                             method.channels, filter.id, filter.tapCount, scene.masked ? 1 : 0, method.user}),
+                    groupCount_, gpu::asPush(push), bindings);
 }
 
 RadiancePass::RadiancePass(const gpu::Device& device, int width, int height)

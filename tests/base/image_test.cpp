@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image_png.h"
+#include "tests/base/file_limit.h"
 #include "tests/base/temporary_folder.h"
 
 #include <cmath>
@@ -12,6 +13,7 @@
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
+#include <zlib.h>
 
 namespace gnomon {
 namespace {
@@ -48,6 +50,80 @@ TEST_F(ImageTest, PngKeepsEveryByteAndTheSameImageGivesTheSameFile) {
   const Image8 back = decodeImage(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), "a.png");
   for (int i = 0; i < 256; ++i)
     for (int c = 0; c < 3; ++c) EXPECT_EQ(back.values[4 * i + c], image.values[3 * i + c]);
+}
+
+// 16 bits, by hand: encodePng writes 8. One line of the filter "none" a row.
+std::string png16(uint32_t width, uint32_t height, const std::vector<uint16_t>& rgba) {
+  const auto word = [](uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255u);
+    return bytes;
+  };
+  const auto chunk = [&](const std::string& type, const std::string& data) {
+    const std::string summed = type + data;
+    const auto* bytes = reinterpret_cast<const Bytef*>(summed.data());
+    return word(static_cast<uint32_t>(data.size())) + summed +
+           word(static_cast<uint32_t>(crc32_z(0, bytes, summed.size())));
+  };
+  std::string lines;
+  for (uint32_t y = 0; y < height; ++y) {
+    lines += '\0';
+    for (uint32_t i = 0; i < 4 * width; ++i) {
+      const uint16_t value = rgba[(4 * width * y + i) % rgba.size()];
+      lines += static_cast<char>(value >> 8);
+      lines += static_cast<char>(value & 255);
+    }
+  }
+  std::string packed(compressBound(lines.size()), '\0');
+  uLongf size = packed.size();
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(lines.data()), lines.size());
+  packed.resize(size);
+  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", word(width) + word(height) + std::string("\x10\x06\0\0\0", 5)) +
+         chunk("IDAT", packed) + chunk("IEND", "");
+}
+
+Image8 decoded(const std::string& bytes) {
+  return decodeImage(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), "a.png");
+}
+
+TEST_F(ImageTest, SixteenBitsAreRoundedToEight) {
+  std::vector<uint16_t> values;
+  for (uint32_t value = 0; value < 65536; value += 4) values.push_back(static_cast<uint16_t>(value));
+  const Image8 image = decoded(png16(64, 64, values));
+  ASSERT_EQ(image.values.size(), values.size());
+  for (size_t i = 0; i < values.size(); ++i)
+    EXPECT_EQ(image.values[i], static_cast<uint8_t>(std::lround(values[i] / 257.0))) << values[i];
+}
+
+TEST_F(ImageTest, ADamagedPngIsOneErrorAndLibpngPrintsNothing) {
+  const std::string whole = png16(16, 16, {1000, 2000, 3000, 65535});
+  testing::internal::CaptureStderr();
+  size_t refused = 0;
+  for (size_t i = 8; i < whole.size(); ++i) {
+    std::string damaged = whole;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x55);
+    try {
+      decoded(damaged);
+    } catch (const WorldError& error) {
+      ++refused;
+      EXPECT_EQ(std::string(error.what()).find("a.png: cannot be decoded as PNG; "), 0u) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+    EXPECT_THROW(decoded(whole.substr(0, i)), WorldError) << i;
+  }
+  EXPECT_GT(refused, whole.size() / 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(ImageTest, AFullDiskLeavesTheOldPictureWhereverItIsFull) {
+  Image8 image(64, 64, 3);
+  ImageF data(64, 64, 2);
+  for (size_t i = 0; i < image.values.size(); ++i) image.values[i] = static_cast<uint8_t>(i * i / 7);
+  for (size_t i = 0; i < data.values.size(); ++i) data.values[i] = std::sin(static_cast<float>(i));
+  test::expectWholeOrOld<WorldError>(folder_ / "png" / "a.png", [&] { writePng(folder_ / "png" / "a.png", image); });
+  test::expectWholeOrOld<WorldError>(folder_ / "exr" / "a.exr", [&] {
+    writeExr(folder_ / "exr" / "a.exr", data, {"Y", "Z"});
+  });
 }
 
 // The standard's sums are part of what is checked: a decoder refuses a stream whose sum is wrong.

@@ -23,10 +23,11 @@ struct Result {
 
 class CliTest : public ::testing::Test {
  protected:
-  // `@` in the arguments stands for this test's folder.
+  // `@` at the start of a word or a value stands for this test's folder.
   Result run(std::string arguments) const {
-    for (size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@'))
-      arguments.replace(at, 1, folder_.string());
+    for (size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@', at + 1))
+      if (at == 0 || std::string_view(" ='\":,").find(arguments[at - 1]) != std::string_view::npos)
+        arguments.replace(at, 1, folder_.string());
     const std::string command = std::string(GNOMON_PROGRAM) + " " + arguments + " >" + (folder_ / "stdout").string() +
                                 " 2>" + (folder_ / "stderr").string() + " </dev/null";
     const int status = std::system(command.c_str());

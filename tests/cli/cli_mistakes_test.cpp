@@ -1,6 +1,11 @@
 // The program's answers to mistakes: the right exit code, one clear line, nothing written.
 #include "cli_fixture.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include <fmt/format.h>
+
 namespace gnomon {
 namespace {
 
@@ -68,6 +73,7 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   expectMistake("compare contact --constant-offset -1", 2, "--constant-offset");
   expectMistake("compare contact --constant-offset nan", 2, "--constant-offset");
   expectMistake("compare contact --fail-if acne", 2, "--fail-if 'acne'");
+  expectMistake("compare contact --fail-if 'adaptiv:acne>0.1%'", 2, "did you mean adaptive?");
   expectMistake("compare contact --camera eye:1,2", 2, "--camera");
   expectMistake("compare contact --cone 300", 2, "--cone 300");
   expectMistake("compare contact --cull all", 2, "--cull all");
@@ -105,6 +111,27 @@ TEST_F(CliTest, WrongUsageExitsWith2AndOneLine) {
   EXPECT_EQ(fileCount(), 0u);
 }
 
+TEST_F(CliTest, WhatIsMisspeltIsAnsweredWithWhatWasMeant) {
+  expectMistake("compar contact", 2, "compar: no such subcommand; did you mean compare? Choose from compare, render,");
+  expectMistake("shadows contact", 2, "shadows: no such subcommand; choose from compare, render,");
+  expectMistake("compare contact --bises none", 2, "--bises: compare has no such flag; did you mean --biases?");
+  expectMistake("compare contact --constant-ofset=1", 2, "did you mean --constant-offset?");
+  expectMistake("fog grate --sigma_s 1", 2, "did you mean --sigma-s?");
+  expectMistake("compare contact other.glb", 2, "other.glb: one word too many");
+  expectMistake("compare contact --biases adpative", 2, "did you mean adaptive? Choose from none, constant,");
+  expectMistake("compare contact --maps cubes", 2, "did you mean cube?");
+  expectMistake("compare contact --maps para", 2, "did you mean paraboloid?");
+  expectMistake("compare contact --filters biliner", 2, "did you mean bilinear?");
+  expectMistake("compare contact --cube-depth Radial", 2, "did you mean radial?");
+  expectMistake("compare contact --epsilon-at store", 2, "did you mean stored?");
+  expectMistake("render contact --show label -o @/a.png", 2, "did you mean labels?");
+  expectMistake("fog grate --integrators runz", 2, "did you mean runs?");
+  expectMistake("reproduce dou2041", 2, "did you mean dou2014?");
+  expectMistake("compare atriom", 1, "did you mean atrium?");
+  expectMistake("compare atrium --light lantren --size 16", 1, "did you mean lantern?");
+  EXPECT_EQ(fileCount(), 0u);
+}
+
 TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
   expectMistake("compare nowhere.glb", 1, "nowhere.glb");
   expectMistake("compare contact --light moon --size 16", 1, "--light moon: the scene has no light of this name");
@@ -123,6 +150,72 @@ TEST_F(CliTest, TheWorldsFailuresExitWith1AndOneLine) {
   expectMistake("scene --density puff --for nothing -o @/a.vdb", 1, "nothing");
   expectMistake("compare contact --shader-dir @/none --size 16", 1, "none");
   EXPECT_EQ(fileCount(), 0u);
+}
+
+TEST_F(CliTest, WhatIsLostOnTheWayOutExitsWith1) {
+  const std::string full = std::string(GNOMON_PROGRAM) + " scene > /dev/full 2>" + (folder_ / "err").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(full.c_str())), 1);
+  EXPECT_EQ(readFile(folder_ / "err"),
+            "gnomon: standard output: cannot be written, part of it is lost; No space left on device\n");
+  const std::string closed = std::string(GNOMON_PROGRAM) + " --version >&- 2>" + (folder_ / "err").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(closed.c_str())), 1);
+  EXPECT_NE(readFile(folder_ / "err").find("standard output"), std::string::npos);
+}
+
+TEST_F(CliTest, OutputsThatCannotBeWrittenAreFoundBeforeTheWork) {
+  writeTextFile(folder_ / "file", "");
+  // The scene is not there either, and would be told if it were looked for first.
+  for (const char* line :
+       {"render none.glb -o @/file/a.png", "compare none.glb --json @/file/a.json", "compare none.glb -o @/file",
+        "fog none.glb -o @/file/a.exr", "fog none.glb -o @/file", "vsv none.glb --vdb @/file/a.vdb",
+        "vsv none.glb -o @/file", "bench none.glb --svg @/file/a", "report none -o @/file/a.html",
+        "scene none -o @/file/a.glb", "reproduce dou2014 --scene none.glb -o @/file"})
+    expectMistake(line, 1, (folder_ / "file").string() + (std::string(line).ends_with("file") ? "" : "/a"));
+  EXPECT_EQ(fileCount(), 1u);
+}
+
+TEST_F(CliTest, ASecondRunInAFolderIsRefusedAndAFailedOneLeavesNoFolder) {
+  fs::create_directory(folder_ / "out");
+  const Descriptor held(::open((folder_ / "out").c_str(), O_RDONLY));
+  ASSERT_EQ(::flock(held.get(), LOCK_EX), 0);
+  expectMistake("compare contact --size 16 -o @/out", 1, "out: another gnomon is writing there");
+  expectMistake("compare none.glb -o @/new", 1, "none.glb");
+  EXPECT_EQ(fileCount(), 1u);
+}
+
+#if !defined(GNOMON_SANITIZED)  // sanitizers take terabytes of addresses
+TEST_F(CliTest, ALimitOnMemoryIsOneLineAboutMemory) {
+  for (const int mebibytes : {250, 400, 600, 700, 800}) {
+    const std::string line = fmt::format(
+        "ulimit -v {}; {} compare contact --maps spot --biases none --size 64 --map-size 64 --repeats 1 -o {} "
+        ">/dev/null 2>{}",
+        mebibytes << 10, GNOMON_PROGRAM, (folder_ / "out").string(), (folder_ / "err").string());
+    EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 1) << mebibytes;
+    const std::string error = readFile(folder_ / "err");
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+    EXPECT_NE(error.find("memory"), std::string::npos) << error;
+    EXPECT_EQ(error.find("install"), std::string::npos) << error;
+  }
+}
+#endif
+
+TEST_F(CliTest, AnEmptyValueIsWrongUsage) {
+  for (const char* line :
+       {"compare contact --json ''", "compare contact -o ''", "compare contact --light=", "render '' -o @/a.png",
+        "fog grate --density '' -o @/a.png", "render contact --shader-dir '' -o @/a.png"})
+    expectMistake(line, 2, "empty");
+  EXPECT_EQ(fileCount(), 0u);
+}
+
+TEST_F(CliTest, PathsThatAreNoUtf8Work) {
+  const std::string odd = (folder_ / "odd\xff\xc3(name").string();
+  EXPECT_EQ(run("scene corner -o '" + odd + ".glb'").exitCode, 0);
+  const Result compared = run("compare '" + odd + ".glb' --biases none --size 24 --map-size 24 --repeats 1 -o '" + odd +
+                              "' --json @/a.json");
+  EXPECT_EQ(compared.exitCode, 0) << compared.err;
+  EXPECT_NE(readFile(folder_ / "a.json").find("odd"), std::string::npos);
+  EXPECT_EQ(run("report '" + odd + "' -o '" + odd + ".html'").exitCode, 0);
+  expectMistake("info '" + odd + "none.glb'", 1, "odd\\xff\\xc3(name");
 }
 
 TEST_F(CliTest, VsvSaysWhatIsWrong) {

@@ -41,6 +41,36 @@ TEST_F(CliTest, CompareLeavesAPageAndReportMakesTheSameOneAgain) {
   EXPECT_EQ(page, readFile(folder_ / "out" / "report.html"));
 }
 
+TEST_F(CliTest, AFolderHoldsOneRunAndReportRefusesAnother) {
+  const std::string small = " --size 32 --map-size 32 --repeats 1 -o @/";
+  ASSERT_EQ(run("compare corner --maps spot,cube --biases none,adaptive" + small + "out").exitCode, 0);
+  ASSERT_EQ(run("compare corner --maps spot --biases none" + small + "out").exitCode, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "cube"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "spot" / "adaptive.beauty.png"));
+  // A run that fails half-way leaves what there was.
+  const std::string before = readFile(folder_ / "out" / "results.json");
+  expectMistake("compare corner --camera eye:0,1000,0,target:0,2000,0" + small + "out", 1, "sees no surface");
+  EXPECT_EQ(readFile(folder_ / "out" / "results.json"), before);
+  EXPECT_EQ(run("report @/out -o @/a.html").exitCode, 0);
+
+  ASSERT_EQ(run("compare contact --maps spot --biases none" + small + "other").exitCode, 0);
+  fs::copy_file(folder_ / "other" / "spot" / "none.exr", folder_ / "out" / "spot" / "none.exr",
+                fs::copy_options::overwrite_existing);
+  expectMistake("report @/out -o @/b.html", 1, "out/spot/none.exr: is not the one that results.json lists");
+  EXPECT_FALSE(fs::exists(folder_ / "b.html"));
+}
+
+TEST_F(CliTest, AMinusIsStandardOutputAndTheTableGoesElsewhere) {
+  const Result json = run("compare corner --biases none --size 32 --map-size 32 --repeats 1 --json -");
+  ASSERT_EQ(json.exitCode, 0) << json.err;
+  EXPECT_EQ(nlohmann::json::parse(json.out).at("rows").size(), 1u);
+  EXPECT_NE(json.err.find("bias error"), std::string::npos);
+  const Result picture = run("render corner --size 32 --map-size 32 -o -");
+  EXPECT_TRUE(picture.out.starts_with("\x89PNG")) << picture.err;
+  EXPECT_TRUE(run("scene corner -o -").out.starts_with("glTF"));
+  EXPECT_TRUE(run("scene --density puff -o -").out.starts_with(" BDV"));
+}
+
 // Of the commands that a page shows for its rows, as a person would copy them.
 std::vector<std::string> rowCommandsOf(std::string page) {
   const std::string before = "<h3>Command for this row</h3>\n<div class=\"command\"><code>";
@@ -57,9 +87,10 @@ std::vector<std::string> rowCommandsOf(std::string page) {
   return commands;
 }
 
-// What does not depend on the clock, nor on where pictures went.
+// What does not depend on the clock, nor on where pictures went, nor on the other rows: the best one alone has
+// `elsewhere`.
 nlohmann::json withoutTimes(nlohmann::json row) {
-  for (const char* key : {"build_ms", "shade_ms", "frame_ms", "pictures"}) row.erase(key);
+  for (const char* key : {"build_ms", "shade_ms", "frame_ms", "pictures", "elsewhere"}) row.erase(key);
   return row;
 }
 
@@ -197,6 +228,43 @@ TEST_F(CliTest, AFilesKnobsAreSetByName) {
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=much", 2, "'much' is not a number");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=9", 2,
                 "--bias-file-knob reach 9 is outside 0..8 texels");
+}
+
+TEST_F(CliTest, ComparePrintsARecommendationAndKeepsToTheTerminalsWidth) {
+  const std::string base = "compare contact --biases none,slope,dual --size 64 --map-size 64 --repeats 1 ";
+  const Result usual = run(base + "--json @/r.json");
+  ASSERT_EQ(usual.exitCode, 0) << usual.err;
+  EXPECT_NE(usual.out.find("\nUse "), std::string::npos) << usual.out;
+  EXPECT_NE(usual.out.find("\n  elsewhere: from camera "), std::string::npos) << usual.out;
+  EXPECT_EQ(usual.out.find("agree"), std::string::npos);
+  EXPECT_NE(run(base + "--wide").out.find(" agree"), std::string::npos);
+  const auto json = nlohmann::json::parse(readFile(folder_ / "r.json"));
+  size_t recommended = 0;
+  for (const auto& row : json.at("rows")) recommended += row.at("elsewhere").is_null() ? 0 : 1;
+  EXPECT_EQ(recommended, 1u);
+  EXPECT_TRUE(json.at("equal_error").is_null());
+  ASSERT_EQ(setenv("COLUMNS", "80", 1), 0);
+  const Result narrow = run(base);
+  ASSERT_EQ(unsetenv("COLUMNS"), 0);
+  std::istringstream lines(narrow.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+  EXPECT_NE(narrow.out.find("all wrong"), std::string::npos);
+}
+
+TEST_F(CliTest, UntilErrorFindsTheSmallestMaps) {
+  const Result result = run(
+      "compare contact --biases none,slope --size 64 --map-size 32 --repeats 1 --until-error 2% --until-map-size 256 "
+      "-o @/out");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_NE(result.out.find("smallest map with at most 2% of all pixels wrong"), std::string::npos) << result.out;
+  const auto equal = nlohmann::json::parse(readFile(folder_ / "out" / "results.json")).at("equal_error");
+  EXPECT_EQ(equal.at("limit"), 0.02);
+  EXPECT_EQ(equal.at("methods")[0].at("bias"), "slope");
+  EXPECT_TRUE(equal.at("methods")[1].at("smallest").is_null());
+  EXPECT_NE(readFile(folder_ / "out" / "report.html").find("Equal error"), std::string::npos);
+  expectMistake("compare contact --until-error 2", 2, "--until-error 2: write a share of the pixels");
+  expectMistake("compare contact --until-error much", 2, "--until-error much");
+  expectMistake("compare contact --until-error 1% --until-map-size 1", 2, "--until-map-size");
 }
 
 TEST_F(CliTest, MapTexelsPicksTheSide) {

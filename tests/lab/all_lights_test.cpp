@@ -54,6 +54,29 @@ TEST(AllLights, SumsAddUpAndThePageNamesEachLight) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "cube/light1/unfolded.png"));
 }
 
+// Of the bias each light has values of its own; the filter's are those of all of them.
+TEST(AllLights, ASumOfTunedRowsKeepsTheFiltersParameters) {
+  const Session session({.validation = true}, {.scene = "atrium", .light = "all", .size = "48"});
+  CompareOptions options;
+  options.maps = parseMaps("cube");
+  options.biases = parseBiases("constant");
+  options.filters = parseFilters("jitter4x4");
+  options.mapSide = 32;
+  options.repeats = 1;
+  options.tune = true;
+  options.tuneElsewhere = false;
+  const Comparison comparison = compare(session, options);
+  size_t tuned = 0;
+  for (const Row& sum : comparison.rows) {
+    if (!sum.isSum) continue;
+    EXPECT_EQ(paramText(sum.params, "filter_width"), "4");
+    EXPECT_EQ(sum.unitOf("filter_width"), "texels");
+    EXPECT_EQ(paramText(sum.params, "offset").empty(), sum.isTuned());
+    tuned += sum.isTuned() ? 1 : 0;
+  }
+  EXPECT_EQ(tuned, 1u);
+}
+
 TEST(AllLights, AMapThatNoLightIsForSaysSo) {
   Scene scene = openScene("lshape");
   std::erase_if(scene.lights, [](const Light& light) { return light.type != LightType::Directional; });

@@ -45,7 +45,7 @@ TEST(CompareCommand, SaysAllThatIsNot) {
                         kVolumeSource(VolumeSource::Resample),
                         kVolumeFit(VolumeFit::Full)};
   options.cull = CullMode::None;
-  options.epsilonAt = glsl::kEpsilonAtStored;
+  options.choices.epsilonAt = glsl::kEpsilonAtStored;
   options.filters = parseFilters("none,bilinear");
   options.tune = true;
   options.knobs = {{&findBias("slope").knobs[0], 2.5f},

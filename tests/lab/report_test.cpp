@@ -184,6 +184,7 @@ std::vector<std::string> column(const std::string& html, const char* pattern) {
 }
 
 TEST_F(ReportTest, RanksByBiasErrorThenByAllWrongPixels) {
+  for (Json& row : json_["rows"]) row["filter"] = "none";
   // Equal bias errors, told apart by their edges.
   json_["rows"][1]["edge_light"] = json_["rows"][1]["edge_light"].get<int>() + 7;
   json_["rows"][1]["agree"] = json_["rows"][1]["agree"].get<int>() - 7;
@@ -191,9 +192,27 @@ TEST_F(ReportTest, RanksByBiasErrorThenByAllWrongPixels) {
   const std::vector<std::string> names = column(html, "<th scope=\"row\"><a href=\"#row-\\d+\">([a-z]+)</a>");
   EXPECT_EQ(names, (std::vector<std::string>{"dual", "constant", "constant", "constant", "none"}));
   const std::vector<std::string> edges =
-      column(html, "data-v=\"(\\d+)\">[^<]*</td>\n<td class=\"n\" data-v=\"[^\"]*\">0\\.");
+      column(html, "data-v=\"(\\d+)\"[^>]*>[^<]*</td>\n<td class=\"n\" data-v=\"[^\"]*\"[^>]*>0\\.");
   EXPECT_EQ(edges, (std::vector<std::string>{"26", "21", "21", "28", "12"}));
-  EXPECT_NE(html.find("<a href=\"#row-1\">dual</a> has the least bias error: <b>0.0000"), std::string::npos);
+  EXPECT_NE(html.find("<a href=\"#row-1\">dual</a> is best at its default: bias error <b>0.0000"), std::string::npos);
+  EXPECT_NE(
+      html.find("Tuned for this very picture, <a href=\"#row-2\">constant tuned</a> is best: bias error <b>2.3917"),
+      std::string::npos);
+  EXPECT_EQ(allMatches(html, "<span class=\"tag crown\">([a-z ]+)</span>"),
+            (std::vector<std::string>{"best at its default", "best tuned"}));
+}
+
+// The errors of dual, of constant through the filter, of constant tuned and not, and of none.
+TEST_F(ReportTest, RanksAndPlotsByRmseWhereAFilterIsAskedFor) {
+  json_["rows"][2]["given"] = true;
+  const std::string html = page();
+  const std::vector<std::string> names = column(html, "<th scope=\"row\"><a href=\"#row-\\d+\">([a-z]+)</a>");
+  EXPECT_EQ(names, (std::vector<std::string>{"dual", "constant", "constant", "constant", "none"}));
+  const std::vector<std::string> filters = column(html, "data-h=\"Filter\">([a-z]+)<");
+  EXPECT_EQ(filters, (std::vector<std::string>{"none", "bilinear", "none", "none", "none"}));
+  EXPECT_NE(html.find("dual</a> is best as given: RMSE <b>0.1016</b>"), std::string::npos);
+  EXPECT_NE(html.find(">RMSE</text>"), std::string::npos);  // the plot's axis
+  EXPECT_EQ(html.find(">bias error</text>"), std::string::npos);
 }
 
 TEST_F(ReportTest, AFilteredRowIsHeldAgainstTheFilteredTruth) {
@@ -202,10 +221,10 @@ TEST_F(ReportTest, AFilteredRowIsHeldAgainstTheFilteredTruth) {
   const std::vector<std::string> beauty = attributes(html, "data-truth-beauty");
   ASSERT_EQ(visibility.size(), 5u);
   ASSERT_EQ(beauty.size(), 5u);
-  EXPECT_EQ(visibility[0], visibility[1]);
-  EXPECT_NE(visibility[3], visibility[2]);  // the fourth is bilinear
-  EXPECT_NE(beauty[3], beauty[2]);
-  const size_t image = html.find("id=\"" + visibility[3] + "\"");
+  EXPECT_EQ(visibility[0], visibility[2]);
+  EXPECT_NE(visibility[1], visibility[2]);  // the second is bilinear
+  EXPECT_NE(beauty[1], beauty[2]);
+  const size_t image = html.find("id=\"" + visibility[1] + "\"");
   EXPECT_EQ(html.find("Exact shadow, bilinear", image), html.find("Exact shadow", image));
 }
 
@@ -220,6 +239,44 @@ TEST_F(ReportTest, TellsTuningPlacesAndTheCommandOfARow) {
   EXPECT_NE(html.find("<code>gnomon compare &apos;l&apos;\\&apos;&apos;shape.glb&apos; --maps spot "
                       "--constant-offset 0.0125</code>"),
             std::string::npos);
+}
+
+// Of one method that reached the limit on its second map, and one that did not.
+TEST_F(ReportTest, ShowsTheSmallestMapsOfEqualError) {
+  EXPECT_EQ(page().find("Equal error"), std::string::npos);
+  const auto sized = [](int side, double wrong) {
+    return Json{{"map_size", side},
+                {"map_texels", 6 * side * side},
+                {"map_bytes", 24 * side * side},
+                {"all_wrong", wrong},
+                {"build_ms", 2.5},
+                {"shade_ms", 1.5},
+                {"frame_ms", 5.0}};
+  };
+  json_["equal_error"] = {
+      {"limit", 0.001},
+      {"largest_map_size", 64},
+      {"methods",
+       {{{"map", "cube"},
+         {"light", "lamp"},
+         {"bias", "dual"},
+         {"smallest", sized(32, 0.0005)},
+         {"sizes", {sized(16, 0.02), sized(32, 0.0005)}}},
+        {{"map", "cube"}, {"light", "lamp"}, {"bias", "<none>"}, {"smallest", nullptr}, {"sizes", {sized(64, 0.3)}}}}}};
+  const std::string html = page();
+  expectSound(html);
+  EXPECT_NE(html.find("at most 0.1\u202f% of all pixels are wrong"), std::string::npos);
+  EXPECT_NE(html.find("data-h=\"Texels a side\">32</td>"), std::string::npos);
+  EXPECT_NE(html.find("data-h=\"Texels a side\">more than 64</td>"), std::string::npos);
+  EXPECT_EQ(html.find("<none>"), std::string::npos);
+  // Texels and frame time, each wide and narrow; two lines, three points, one of which is the smallest.
+  EXPECT_EQ(allMatches(html, "class=\"plot lines", 0).size(), 4u);
+  EXPECT_EQ(allMatches(html, "<path class=\"line-[0-9]+\" d=\"M[0-9. L-]+\"/>\n", 0).size(), 8u);
+  EXPECT_EQ(allMatches(html, "<circle class=\"line-", 0).size(), 12u);
+  EXPECT_EQ(allMatches(html, " smallest\"", 0).size(), 4u);
+  json_["equal_error"]["methods"][0]["sizes"][0]["all_wrong"] = 2;
+  EXPECT_NE(complaint().find("equal_error.methods[0].sizes[0].all_wrong must be at most 1"), std::string::npos)
+      << complaint();
 }
 
 TEST_F(ReportTest, KnobsHaveTheUnitThatTheFileNames) {

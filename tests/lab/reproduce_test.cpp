@@ -42,6 +42,8 @@ class ReproduceTest : public ::testing::Test {
     EXPECT_EQ(page.find("<link rel=\"stylesheet"), std::string::npos);
     EXPECT_EQ(page.find("cannot be read"), std::string::npos);
     EXPECT_EQ(page.find("{{"), std::string::npos);
+    EXPECT_NE(page.find("the verdicts are meant for scale 1"), std::string::npos);
+    EXPECT_TRUE(reproductionText(result).starts_with("at scale 0.06: the verdicts are meant for scale 1"));
   }
 
   static size_t occurrences(const std::string& text, const std::string& what) {

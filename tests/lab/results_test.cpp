@@ -43,7 +43,8 @@ void expectTables(const std::string& docs) {
 TEST(ResultsDocs, HaveTheTableOfEveryDeclaredField) {
   const std::string docs = readFile(std::filesystem::path(GNOMON_TEST_DIR) / "../../docs/results.md");
   expectTables<Comparison, ProgramFacts, SceneFacts, CameraFacts, LightFacts, TruthSummary, MapSummary,
-               TexelSolidAngles, Row, WorstPlace, Tuning, CameraTransfer, MapSizeTransfer>(docs);
+               TexelSolidAngles, Row, Walks, WorstPlace, Tuning, CameraTransfer, MapSizeTransfer, Elsewhere,
+               CameraError, MapSizeError, EqualError, EqualErrorMethod, SizedError>(docs);
   expectTables<MediaResults, MediumFacts, DensityFacts, ReferenceFacts, FramesFacts, MediaRow, EqualTerms, Factor>(
       docs);
   EXPECT_NE(docs.find(fmt::format("## results.json, schema {}\n", kResultsVersion)), std::string::npos);

@@ -57,6 +57,24 @@ TEST_F(SetupTest, MalformedCamerasAndLightsAreRefused) {
   EXPECT_THROW(chooseLight(options_, tracer_, spotParameterization()), WorldError);
 }
 
+TEST_F(SetupTest, PlacesTooFarForFloatsAreRefusedWithTheFarthest) {
+  options_.light = "0,1e19,0";
+  EXPECT_NE(messageOf([&] { chooseLight(options_, tracer_, spotParameterization()); }).find("at most 5e+17 metres"),
+            std::string::npos);
+  options_.light = "0,5e17,0";
+  EXPECT_EQ(messageOf([&] { chooseLight(options_, tracer_, spotParameterization()); }), "");
+  for (const char* text : {"eye:1e19,0,0,target:0,0,0", "eye:0,0,0,target:0,0,-1e18"}) {
+    options_.camera = text;
+    EXPECT_THROW(chooseCamera(options_, tracer_), UsageError) << text;
+  }
+  // A direction has no length that matters.
+  options_.light.clear();
+  for (const char* text : {"0,-1e30,0", "0,-1e-30,0"}) {
+    options_.direction = text;
+    EXPECT_EQ(chooseLight(options_, tracer_, spotParameterization()).directionW, glm::vec3(0, -1, 0)) << text;
+  }
+}
+
 TEST_F(SetupTest, EveryMapFindsALightItCanTake) {
   for (const GeneratedScene& generated : generatedScenes()) {
     const Scene scene = generated.make();

@@ -1,6 +1,7 @@
 // The search for the best knob: what it counts is what the labels count, and nothing it has seen is better
 // than what it says.
 #include "lab/compare/tune.h"
+#include "judge/filtered_truth.h"
 #include "lab/compare/compare.h"
 #include "lab/compare/robustness.h"
 #include "lab/core/maps.h"
@@ -45,7 +46,7 @@ TEST_F(TuneTest, NothingNearbyIsBetter) {
   for (const char* name : {"constant", "slope", "normal-offset", "cosine", "dual", "adaptive"}) {
     const Method start = method(name);
     const TunedMethod tuned = tune(evaluator_, start);
-    EXPECT_LE(tuned.biasErrors, evaluator_.biasErrors(start)) << name;
+    EXPECT_LE(tuned.error, evaluator_.error(start)) << name;
     for (const Knob& knob : knobsOf(*start.bias)) {
       const float unit = knob.defaultOfSceneScale ? evaluator_.sceneScale() : 1.0f;
       for (int i = 0; i < kTuneGrid; ++i) {
@@ -53,7 +54,7 @@ TEST_F(TuneTest, NothingNearbyIsBetter) {
         const double t = static_cast<double>(i) / (kTuneGrid - 1);
         valueOf(other.params, *other.bias, knob) =
             static_cast<float>(knob.searchLower * std::pow(knob.searchUpper / knob.searchLower, t) * unit);
-        EXPECT_LE(tuned.biasErrors, evaluator_.biasErrors(other)) << name << " " << knob.name << " " << i;
+        EXPECT_LE(tuned.error, evaluator_.error(other)) << name << " " << knob.name << " " << i;
       }
     }
   }
@@ -64,8 +65,42 @@ TEST_F(TuneTest, ItIsWorthItAndTheSameEveryTime) {
   TuningEvaluator again(lit_);
   const TunedMethod b = tune(again, method("constant"));
   EXPECT_EQ(a.method.params.knobs[0], b.method.params.knobs[0]);
-  EXPECT_EQ(a.biasErrors, b.biasErrors);
-  EXPECT_LT(a.biasErrors, evaluator_.biasErrors(method("none")) / 4);
+  EXPECT_EQ(a.error, b.error);
+  EXPECT_LT(a.error, evaluator_.error(method("none")) / 4);
+}
+
+// Through a filter the RMSE counts, and a wide filter wants another value than the unfiltered map does.
+TEST_F(TuneTest, AFilterIsTunedForItsOwnError) {
+  const ChosenFilter filter(glsl::kShadowFilterJitter4x4);
+  TuningEvaluator filtered(lit_, filter);
+  const std::vector<float> truth = lit_.filteredTruth(filter);
+  for (const char* name : {"constant", "normal-offset", "adaptive"}) {
+    const TunedMethod unfiltered = tune(evaluator_, method(name));
+    const TunedMethod tuned = tune(filtered, method(name));
+    EXPECT_LT(tuned.error, filtered.error(unfiltered.method)) << name;
+    EXPECT_GT(tuned.method.params.knobs[0], unfiltered.method.params.knobs[0]) << name;
+    EXPECT_DOUBLE_EQ(tuned.error, scoredRmse(lit_.receivers(), lit_.visibility(tuned.method, filter), truth)) << name;
+  }
+}
+
+TEST_F(TuneTest, AMethodElsewhereIsWhatItsLabelsSayThere) {
+  CompareOptions options;
+  options.mapSide = 64;
+  const Elsewhere elsewhere =
+      Robustness(lit_, options).judge(method("constant"), ChosenFilter(glsl::kShadowFilterBilinear));
+  ASSERT_TRUE(elsewhere.otherCamera && elsewhere.otherMapSize);
+  EXPECT_EQ(elsewhere.otherMapSize->mapSize, 32);
+  LightOnMap halved(lit_, {.side = 32});
+  const LabelledResult judged = halved.judge(method("constant"));
+  const auto share = [&](size_t pixels) {
+    return static_cast<double>(pixels) / static_cast<double>(halved.receivers().scored);
+  };
+  EXPECT_DOUBLE_EQ(elsewhere.otherMapSize->biasError,
+                   share(judged.labels.count(Label::Acne) + judged.labels.count(Label::Leak)));
+  EXPECT_DOUBLE_EQ(elsewhere.otherMapSize->allWrong,
+                   share(halved.receivers().scored - judged.labels.count(Label::Agree)));
+  EXPECT_GT(elsewhere.otherMapSize->rmse.value_or(0.0), 0.0);
+  EXPECT_NE(elsewhere.otherCamera->allWrong, elsewhere.otherMapSize->allWrong);
 }
 
 TEST_F(TuneTest, RobustnessIsNeverBetterThanTheBestThere) {
@@ -73,7 +108,7 @@ TEST_F(TuneTest, RobustnessIsNeverBetterThanTheBestThere) {
   options.mapSide = 64;
   Robustness robustness(lit_, options);
   const TunedMethod tuned = tune(evaluator_, method("constant"));
-  const Tuning tuning = robustness.judge(tuned);
+  const Tuning tuning = robustness.judge(tuned, glsl::kShadowFilterNone);
   EXPECT_STREQ(tuning.knob.c_str(), "offset");
   ASSERT_TRUE(tuning.otherCamera && tuning.otherMapSize);
   for (const Transfer* transfer :

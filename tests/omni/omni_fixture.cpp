@@ -55,9 +55,15 @@ Slices drawSlices(const gpu::Device& device, const World& world, const FittedMap
     return (image.channels() & channel) != 0 ? gpu::downloadAs<float>(device, image.image(channel))
                                              : std::vector<float>();
   };
+  const auto idsOf = [&](ChannelSet channel) {
+    return (image.channels() & channel) != 0 ? gpu::downloadAs<uint32_t>(device, image.image(channel))
+                                             : std::vector<uint32_t>();
+  };
   const Slices layers{.z1 = depthsOf(glsl::kChannelDepth),
                       .z2 = depthsOf(glsl::kChannelSecondDepth),
-                      .zBack = depthsOf(glsl::kChannelBackDepth)};
+                      .zBack = depthsOf(glsl::kChannelBackDepth),
+                      .ids = idsOf(glsl::kChannelIds),
+                      .secondIds = idsOf(glsl::kChannelSecondIds)};
   return layers;
 }
 

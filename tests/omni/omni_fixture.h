@@ -32,7 +32,9 @@ World openWorld(const gpu::Device& device, Scene scene, std::optional<glm::dvec3
 FittedMap fitWhole(const World& world, const Parameterization& map, int side, const MapOptions& options = {});
 
 struct Slices {
-  std::vector<float> z1, z2, zBack;  // slice after slice; empty where the map has no such channel
+  // Slice after slice; empty where the map has no such channel.
+  std::vector<float> z1, z2, zBack;
+  std::vector<uint32_t> ids, secondIds;
 };
 Slices drawSlices(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
                   ChannelSet channels = glsl::kChannelDepth, SecondLayer method = SecondLayer::Blend);

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include <chrono>
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -359,6 +361,36 @@ TEST(RealScenes, load) {
     for (const Mesh& mesh : scene.meshes)
       for (const glm::vec3& normal : mesh.normals) ASSERT_NEAR(glm::length(normal), 1.0f, 1e-4f) << each.file;
   }
+}
+
+// They are printed in tables, and are words of the command line.
+TEST(GltfNames, controlCharactersAreEscaped) {
+  GltfText text;
+  const int mesh = text.addMesh({{"POSITION", text.addVec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})}}, -1);
+  text.document["meshes"][0]["name"] = "me\x1b[2Jsh";
+  text.addNode({{"mesh", mesh}, {"name", "two\nlines"}});
+  const Scene scene = text.load();
+  EXPECT_EQ(scene.meshes.front().name, "me\\x1b[2Jsh");
+  EXPECT_EQ(scene.instances.front().name, "two\\nlines");
+}
+
+double secondsOfNodes(int count) {
+  GltfText text;
+  const int mesh = text.addMesh({{"POSITION", text.addVec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})}}, -1);
+  auto& nodes = text.document["nodes"] = nlohmann::json::array();
+  auto& roots = text.document["scenes"][0]["nodes"] = nlohmann::json::array();
+  for (int i = 0; i < count; ++i) {
+    nodes.push_back({{"mesh", mesh}, {"translation", {i, 0, 0}}});
+    roots.push_back(i);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(text.load().instances.size(), static_cast<size_t>(count));
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Quadratic, sixteen times as many would take 256 times as long.
+TEST(GltfNodes, sixteenTimesAsManyTakeAboutSixteenTimesAsLong) {
+  EXPECT_LT(secondsOfNodes(160'000), 80.0 * secondsOfNodes(10'000));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "scene/generate.h"
 #include "scene/gltf.h"
+#include "tests/base/file_limit.h"
 
 #include <filesystem>
 
@@ -143,7 +144,7 @@ TEST(RoundTripOfFiles, awkwardSceneLoadsAgainEqual) {
   for (const glm::vec3& direction : directions) {
     for (LightType type : {LightType::Point, LightType::Spot, LightType::Directional}) {
       Light light;
-      light.name = "light";
+      light.name = "light " + std::to_string(scene.lights.size());
       light.type = type;
       if (type != LightType::Point) light.directionW = direction;
       if (type != LightType::Directional) light.positionW = glm::vec3(0.1f, 1e-20f, -12345.678f);
@@ -161,6 +162,12 @@ TEST(RoundTripOfFiles, awkwardSceneLoadsAgainEqual) {
   const fs::path path = folder / "awkward.glb";
   saveGlb(scene, path);
   expectEqual(scene, loadGltf(path));
+}
+
+TEST(SaveGlb, aFullDiskLeavesTheOldFileWhereverItIsFull) {
+  const Folder folder;
+  const Scene scene = openScene("corner");
+  test::expectWholeOrOld<WorldError>(folder / "a.glb", [&] { saveGlb(scene, folder / "a.glb"); });
 }
 
 TEST(SaveGlb, unwritablePlaceIsAWorldErrorAndLeavesNothing) {

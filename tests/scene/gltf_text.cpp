@@ -53,11 +53,15 @@ int GltfText::addNode(const json& node) {
   return index;
 }
 
-Scene GltfText::load() const {
+json GltfText::finished() const {
   json whole = document;
   whole["buffers"] = json::array(
       {{{"byteLength", buffer_.size()}, {"uri", "data:application/octet-stream;base64," + base64(buffer_)}}});
-  const std::string text = whole.dump();
+  return whole;
+}
+
+Scene GltfText::load() const {
+  const std::string text = finished().dump();
   return loadGltfFromMemory(reinterpret_cast<const unsigned char*>(text.data()), text.size(), "made.gltf");
 }
 

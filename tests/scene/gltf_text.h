@@ -30,6 +30,9 @@ class GltfText {
   // A root node of the scene. Returns its index.
   int addNode(const nlohmann::json& node);
 
+  // The document with its buffer.
+  nlohmann::json finished() const;
+
   // Loads what has been put together. Throws WorldError.
   Scene load() const;
 

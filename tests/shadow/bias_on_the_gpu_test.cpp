@@ -61,7 +61,7 @@ FittedMap fit(const MapCase& c) {
 std::vector<int> methodsOn(const Parameterization& map) {
   std::vector<int> methods = {kBiasUser, kNoSuchBias};
   for (const BiasMethod& method : biasMethods())
-    if (map.supportsBias(method)) methods.push_back(method.id);
+    if (map.supportsBias(method) && !method.knowsSurfaces()) methods.push_back(method.id);
   return methods;
 }
 
@@ -94,19 +94,22 @@ std::optional<Turn> findTurn(const ShadowMap& map, BiasQuery query) {
 // How far from where the CPU's verdict turns the GPU's may turn, in depth.
 //
 // Where a bias subtracts sums that have a factor in common the driver's optimizer takes it out (docs/shared_glsl.md),
-// and the difference rounds otherwise, by ulps of what is subtracted. receiver-plane and normal-offset subtract what
-// two rays say; where depth is linear in the radius r, (r - near) / (far - near), slope and the adaptive three subtract
-// such depths. Measured on lavapipe: more than 8 * 2^-24, none beyond 16. Everything else is exact.
+// and the difference rounds otherwise, by ulps of what is subtracted. receiver-plane, normal-offset and what engines do
+// subtract what two rays say; eevee besides that twice the sum of two changes of its plane's depth, which makes five
+// times as much. Where depth is linear in the radius r, (r - near) / (far - near), slope and the adaptive three
+// subtract such depths. Measured on lavapipe: more than 16 * 2^-24, none beyond 32. Everything else is exact.
 //
 // A shadow volume's columns stand on sin, cos and atan2, which turn an angle by up to 8e-6 (epipolar_map_test.cpp).
 float depthTolerance(const ShadowMap& map, int method, bool lavapipe) {
   if (map.kind == kMapEpipolar) return 8e-6f / alphaUpper(map.epipolar);
   if (!lavapipe) return 256.0f * 5.97e-8f;  // products fused with sums, anywhere
   const bool radial = map.kind == kMapCubeRadial || map.kind == kMapParaboloid;
-  const bool byDifferences = method == kBiasReceiverPlane || method == kBiasNormalOffset;
+  const bool byDifferences = method == kBiasReceiverPlane || method == kBiasNormalOffset || method == kBiasEevee ||
+                             method == kBiasGodot || method == kBiasBevy || method == kBiasUnrealVsm;
   const bool subtractsDepths =
       method == kBiasSlope || method == kBiasAdaptive || method == kBiasAdaptiveClamped || method == kBiasAdaptiveEhm;
-  return byDifferences || (radial && subtractsDepths) ? 16.0f * 5.97e-8f : 0.0f;
+  const float ulps = byDifferences || (radial && subtractsDepths) ? 32.0f : 0.0f;
+  return (method == kBiasEevee ? 5.0f : 1.0f) * ulps * 5.97e-8f;
 }
 
 struct Asked {

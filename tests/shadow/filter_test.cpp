@@ -132,7 +132,8 @@ TEST(Filter, NamesAreListedWhenOneIsWrong) {
     parseFilters("billinear");
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("billinear: no such filter; choose from none, bilinear, jitter4x4"),
+    EXPECT_NE(std::string(error.what())
+                  .find("billinear: no such filter; did you mean bilinear? Choose from none, bilinear, jitter4x4"),
               std::string::npos)
         << error.what();
   }

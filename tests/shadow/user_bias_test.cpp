@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "map_fixture.h"
+#include "shadow/user_bias_check.h"
 #include "tests/base/temporary_folder.h"
 
 namespace gnomon {
@@ -91,6 +92,47 @@ TEST_F(UserBiasTest, MistakesNameFileAndLine) {
   expectMistake("//! name: constant\n", "built-in bias");
   expectMistake("//! name: ../x\n", "cannot be part of a file name");
   EXPECT_THROW(loadUserBias(folder_.path() / "absent.glsl"), WorldError);
+}
+
+TEST_F(UserBiasTest, WhatWouldCrashTheCompilerOrNeverEndIsRefused) {
+  const auto complaint = [&](const std::string& before, const std::string& body) {
+    const auto bias = readUserBias(
+        "mine.glsl", before + "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {\n" + body +
+                         "\nreturn tap.z1 > 0.5f;\n}\n");
+    try {
+      checkUserBias(*bias);
+    } catch (const WorldError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto expectComplaint = [&](const std::string& before, const std::string& body, const std::string& what) {
+    const std::string message = complaint(before, body);
+    EXPECT_NE(message.find(what), std::string::npos) << message << "\nof\n" << (before + body).substr(0, 200);
+  };
+  EXPECT_EQ(complaint("", ""), "");
+  std::string sum = "float x = tap.z1";
+  for (int i = 0; i < 20'000; ++i) sum += "+tap.z1";
+  expectComplaint("", sum + ";", "mine.glsl: ");
+  expectComplaint("float a[2000000];\n", "a[int(tap.z1)] = 1.0f; if (a[3] > 0.0f) return true;",
+                  "mine.glsl: an array or structure in it has more than 4096 values");
+  expectComplaint("float g(float x);\nfloat f(float x) {\n return g(x); }\nfloat g(float x) { return f(x); }\n",
+                  "if (f(1.0f) > 0.0f) return true;", "calls itself");
+  expectComplaint("\n#define main other\n", "", "mine.glsl:2: 'main' is the shader's");
+  expectComplaint("", "int x = 0;\nwhile (true) ++x;", "mine.glsl:3: nothing ends this loop");
+  expectComplaint("", "undefined = 3;", "mine.glsl:2: 'undefined'");
+}
+
+TEST(EndlessLoop, IsToldFromOnesThatEnd) {
+  for (const char* endless : {"while (true) { x; }", "while(1) x;", "for (;;) { a(b); }", "for (int i = 0; ; ++i) x;",
+                              "do { x; } while (true);", "for (int i = 0; true; ++i) { while (i < 3) ++i; }",
+                              "/* \n break; */ while (true) { } // break"})
+    EXPECT_GT(endlessLoop(endless), 0) << endless;
+  for (const char* fine : {"while (x < 3) { x; }", "for (;;) { if (a) break; }", "while (true) { return 1; }",
+                           "for (int i = 0; i < 3; ++i) x;", "do { x; } while (x < 3);", "// while (true) {}",
+                           "do { if (a) break; } while (true);", "float forever; whiles(true);", ""})
+    EXPECT_EQ(endlessLoop(fine), 0) << fine;
+  EXPECT_EQ(endlessLoop("a;\n/*\n*/ b;\nfor (;;) {}"), 4);
 }
 
 TEST_F(UserBiasTest, ItIsWhatRuns) {

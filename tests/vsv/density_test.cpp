@@ -1,5 +1,7 @@
 // Heterogeneous media: OpenVDB grids read and placed, sampled on the GPU, and marched.
 #include "base/error.h"
+#include "base/file.h"
+#include "base/message.h"
 #include "media_fixture.h"
 #include "shadow/visibility_pass.h"
 #include "tests/run_kernel.h"
@@ -7,9 +9,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <functional>
 #include <random>
 
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
 namespace gnomon {
@@ -166,6 +171,48 @@ TEST_F(DensityGridTest, WhatCannotBeReadIsSaidInOneLine) {
       openvdb::BBoxd(openvdb::Vec3d(0), openvdb::Vec3d(15)), 0.5, 2.0));
   write(path("frustum.vdb"), {frustum});
   EXPECT_NE(mistake(path("frustum.vdb")).find("not affine"), std::string::npos);
+}
+
+// Counts and lengths that promise more than the file has, at every place of a file: an error of one line, or the grid.
+TEST_F(DensityGridTest, WhateverAFileSaysOfItsSizesIsReadOrRefusedInOneLine) {
+  const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+  write(path("whole.vdb"),
+        {gridOf(
+            openvdb::CoordBBox({0, 0, 0}, {1, 1, 1}), [](const openvdb::Coord&) { return 1.0f; }, transform)});
+  const std::string whole = readFile(path("whole.vdb"));
+  ASSERT_EQ(mistake(path("whole.vdb")), "");
+  size_t refused = 0;
+  testing::internal::CaptureStderr();
+  for (size_t at = 0; at + 4 <= std::min<size_t>(whole.size(), 1600); at += 8) {
+    std::string bytes = whole;
+    const uint32_t promise = at % 16 == 0 ? 0x7fffffffu : 0xfffffff0u;
+    std::memcpy(bytes.data() + at, &promise, sizeof(promise));
+    writeTextFile(path("hostile.vdb"), bytes);
+    const std::string message = mistake(path("hostile.vdb"));
+    EXPECT_LE(message.size(), kLongestMessage) << message;
+    EXPECT_EQ(printable(message), message);
+    if (!message.empty()) ++refused;
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_GT(refused, 20u);
+}
+
+TEST_F(DensityGridTest, AFileWithoutOffsetsAndOneOfInstancesAreReadToo) {
+  const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+  const openvdb::CoordBBox box({0, 0, 0}, {3, 4, 5});
+  const auto first = gridOf(
+      box, [](const openvdb::Coord&) { return 1.0f; }, transform);
+  std::ofstream stream(path("stream.vdb"), std::ios::binary);
+  openvdb::io::Stream(stream).write(openvdb::GridCPtrVec{first});
+  stream.close();
+  EXPECT_EQ(DensityGrid(path("stream.vdb"), {}).activeVoxels(), 4u * 5u * 6u);
+  const auto second = first->copy();
+  second->setName("again");
+  openvdb::io::File file(path("instances.vdb"));
+  file.setInstancingEnabled(true);
+  file.write(openvdb::GridCPtrVec{first, second});
+  for (const char* name : {"density", "again"})
+    EXPECT_EQ(DensityGrid(path("instances.vdb:") + name, {}).activeVoxels(), 4u * 5u * 6u) << name;
 }
 
 TEST_F(DensityGridTest, GeneratedOnesAreTheSameEachTimeAndFillTheBounds) {

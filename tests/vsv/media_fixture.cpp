@@ -122,6 +122,19 @@ glm::dvec3 adaptiveSimpson(const std::function<glm::dvec3(double)>& f, double a,
   return refine(a, b, f(a), f(0.5 * (a + b)), f(b), tolerance, 0);
 }
 
+// Where eye + s dir meets the light's double cone: (axis . p)^2 = cos^2 p . p, a quadratic in s, with p from the light.
+std::vector<double> coneCrossings(const MediaLightSource& light, const glm::dvec3& eyeW, const glm::dvec3& dir) {
+  const glm::dvec3 from = eyeW - light.positionW;
+  const double cos2 = light.coneCos * light.coneCos;
+  const double axisDir = glm::dot(light.coneAxisW, dir), axisFrom = glm::dot(light.coneAxisW, from);
+  const double a = axisDir * axisDir - cos2, b = axisDir * axisFrom - cos2 * glm::dot(dir, from),
+               c = axisFrom * axisFrom - cos2 * glm::dot(from, from);
+  if (std::abs(a) < 1e-12) return std::abs(b) < 1e-12 ? std::vector<double>{} : std::vector<double>{-c / (2.0 * b)};
+  if (b * b < a * c) return {};
+  const double root = std::sqrt(b * b - a * c);
+  return {(-b - root) / a, (-b + root) / a};
+}
+
 }  // namespace
 
 glm::dvec3 unshadowedLight(const glsl::Medium& medium, const MediaLightSource& light, const glm::dvec3& eyeW,
@@ -136,18 +149,20 @@ glm::dvec3 unshadowedLight(const glsl::Medium& medium, const MediaLightSource& l
     const double phase = (1.0 - g * g) / (4.0 * std::numbers::pi * std::pow(x, 1.5));
     return glm::dvec3(medium.sigmaS) * glm::exp(-sigmaT * (s + r)) * glm::dvec3(light.intensity) * phase / (r * r);
   };
-  const auto perMetre = [&](double s) {
-    const glm::dvec3 fromLight = eyeW + dir * s - light.positionW;
-    const bool inCone =
-        light.coneCos <= -1.0 || glm::dot(fromLight, light.coneAxisW) >= light.coneCos * glm::length(fromLight);
-    return inCone ? ofPointLight(s) : glm::dvec3(0.0);
-  };
-  const int leastDepth = light.coneCos > -1.0 ? 11 : 6;  // a cone may let through a stretch of centimetres
-  // Cut where the ray passes the light, so that the peak cannot fall between two samples.
+  // Cut where the ray passes the light, so that the peak cannot fall between samples, and where it crosses the cone.
   const double peak = std::clamp(glm::dot(light.positionW - eyeW, dir), begin, length);
+  std::vector<double> cuts = {begin, peak, length};
+  if (light.coneCos > -1.0)
+    for (const double s : coneCrossings(light, eyeW, dir)) cuts.push_back(std::clamp(s, begin, length));
+  std::ranges::sort(cuts);
   const double scale = glm::length(ofPointLight(peak)) * glm::length(eyeW + dir * peak - light.positionW);
-  return adaptiveSimpson(perMetre, begin, peak, 1e-9 * scale, leastDepth) +
-         adaptiveSimpson(perMetre, peak, length, 1e-9 * scale, leastDepth);
+  glm::dvec3 sum(0.0);
+  for (size_t i = 0; i + 1 < cuts.size(); ++i) {
+    const glm::dvec3 middle = eyeW + dir * (0.5 * (cuts[i] + cuts[i + 1])) - light.positionW;
+    if (light.coneCos > -1.0 && glm::dot(middle, light.coneAxisW) < light.coneCos * glm::length(middle)) continue;
+    sum += adaptiveSimpson(ofPointLight, cuts[i], cuts[i + 1], 1e-9 * scale, 6);
+  }
+  return sum;
 }
 
 double relativeRmse(const std::vector<glm::vec3>& measured, const std::vector<glm::vec3>& expected) {

@@ -150,6 +150,27 @@ TEST_F(MediaPassTest, AConeLightsWhatIsWithin) {
   EXPECT_EQ(marched, 5u);
 }
 
+// Up to a hemisphere and beyond, pointing away from the eye: the lit stretch ends at the ray's end, not at the cone.
+TEST_F(MediaPassTest, AWideConeTurnedAwayFromTheEyeLightsWhatIsWithin) {
+  size_t lit = 0;
+  for (const double halfAngle : {1.2, 1.57, 2.8}) {
+    for (const Place& place : kPlaces) {
+      MediaSetup setup = test::emptyMediaSetup(place.eyeW, place.targetW, place.lightW);
+      setup.light.coneAxisW = glm::normalize(place.lightW - glm::dvec3(place.eyeW));
+      setup.light.coneCos = std::cos(halfAngle);
+      setup.pictureSide = 14;
+      MediaWorld world(device(), setup);
+      const std::vector<glm::vec3> expected = unshadowedPicture(world);
+      if (std::ranges::all_of(expected, [](const glm::vec3& light) { return light == glm::vec3(0.0f); })) continue;
+      ++lit;
+      for (const MediaMethod& method : {kRuns, kBits})
+        EXPECT_LT(relativeRmse(world.scattered(method), expected), 1e-3)
+            << place.name << ", " << halfAngle << ", " << method.integrator->name;
+    }
+  }
+  EXPECT_EQ(lit, 11u);  // of six places and three cones
+}
+
 // Below a shelf that ends under the light everything on its side is dark: rays come from the dark into the
 // light where they pass under the light.
 //

@@ -1,13 +1,11 @@
 // A .vdb file, opened by OpenVDB itself: voxels, transforms, metadata; and whole or absent.
 #include "vsv/check/vdb_file.h"
 #include "base/error.h"
+#include "tests/base/file_limit.h"
 #include "tests/base/temporary_folder.h"
 #include "volumes_by_hand.h"
 
-#include <sys/resource.h>
-
 #include <cmath>
-#include <csignal>
 
 #include <openvdb/openvdb.h>
 
@@ -154,19 +152,15 @@ TEST_F(VdbFileTest, APathThatCannotBeWrittenIsNamedAndNothingIsLeft) {
   EXPECT_EQ(std::distance(fs::directory_iterator(temporary_.path()), fs::directory_iterator()), 1);
 }
 
-// A limit on the file's size stands for a full disk.
-TEST_F(VdbFileTest, AFileCutShortByAFullDiskIsNotLeftBehind) {
-  rlimit before{};
-  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-  std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{4096, before.rlim_max};
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  EXPECT_THROW(write(path_), WorldError);
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_DFL);
-  EXPECT_TRUE(fs::is_empty(temporary_.path()));
+TEST_F(VdbFileTest, TheSameVolumeGivesTheSameBytes) {
   write(path_);
-  EXPECT_TRUE(fs::exists(path_));
+  const std::string first = readFile(path_);
+  write(path_);
+  EXPECT_TRUE(readFile(path_) == first);
+}
+
+TEST_F(VdbFileTest, AFullDiskLeavesTheOldFileWhereverItIsFull) {
+  test::expectWholeOrOld<WorldError>(path_, [&] { write(path_); });
 }
 
 }  // namespace

@@ -1,95 +1,21 @@
 #include "vsv/media/density.h"
 
 #include "base/error.h"
-#include "vsv/vdb_archive.h"
+#include "vsv/media/density_file.h"
 
 #include "shared/media_pass.glsl"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <cstring>
+#include <iostream>
 #include <limits>
 
 #include <fmt/format.h>
-#include <nanovdb/util/OpenToNanoVDB.h>
+#include <nanovdb/util/GridHandle.h>
+#include <nanovdb/util/GridValidator.h>
 
 namespace gnomon {
-
-namespace {
-
-namespace fs = std::filesystem;
-
-struct Named {
-  std::string path, grid;  // no grid: the only one
-};
-
-// A colon ends the path only behind ".vdb".
-Named splitName(const std::string& fileAndGrid) {
-  const size_t colon = fileAndGrid.rfind(".vdb:");
-  if (colon == std::string::npos) return {fileAndGrid, ""};
-  return {fileAndGrid.substr(0, colon + 4), fileAndGrid.substr(colon + 5)};
-}
-
-std::string namesIn(openvdb::io::File& file) {
-  std::vector<std::string> names;
-  for (auto it = file.beginName(); it != file.endName(); ++it) names.push_back(it.gridName());
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-openvdb::GridBase::Ptr readNamed(openvdb::io::File& file, const Named& named) {
-  std::string name = named.grid;
-  if (name.empty()) {
-    auto it = file.beginName();
-    if (it == file.endName()) throw fileError(named.path, "it has no grid", "use another file");
-    name = it.gridName();
-    if (++it != file.endName())
-      throw fileError(named.path, "it has several grids",
-                      fmt::format("name one, as in {}:{}; it has {}", named.path, name, namesIn(file)));
-  } else if (!file.hasGrid(name)) {
-    throw fileError(named.path, fmt::format("it has no grid '{}'", name), fmt::format("choose from {}", namesIn(file)));
-  }
-  return file.readGrid(name);
-}
-
-openvdb::GridBase::Ptr readGrid(const Named& named) {
-  openvdb::initialize();
-  std::error_code failure;
-  if (!fs::is_regular_file(named.path, failure)) throw fileError(named.path, "there is no such file", "check the name");
-  try {
-    openvdb::io::File file(named.path);
-    file.open(/*delayLoad=*/false);
-    return readNamed(file, named);
-  } catch (const WorldError&) {
-    throw;
-  } catch (const std::exception& error) {  // OpenVDB's own, and what a broken file makes the library throw
-    throw fileError(named.path, fmt::format("it cannot be read as OpenVDB ({})", openVdbMessage(error)),
-                    "use a complete .vdb file");
-  }
-}
-
-openvdb::FloatGrid::Ptr checkedGrid(const Named& named) {
-  const openvdb::GridBase::Ptr base = readGrid(named);
-  const auto complain = [&](const std::string& what, const char* remedy) {
-    return fileError(named.path, fmt::format("its grid '{}' {}", base->getName(), what), remedy);
-  };
-  const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(base);
-  if (!grid) throw complain(fmt::format("holds {}", base->valueType()), "a density is a grid of floats");
-  if (grid->getGridClass() == openvdb::GRID_LEVEL_SET)
-    throw complain("is a level set", "convert it to a fog volume first");
-  if (!grid->transform().isLinear())
-    throw complain("has a transform that is not affine", "resample it to equal voxels");
-  if (grid->activeVoxelCount() == 0) throw complain("is empty", "use another grid");
-  if (!std::isfinite(grid->background())) throw complain("has values that are not finite", "repair the file");
-  for (auto it = grid->cbeginValueAll(); it; ++it)
-    if (!std::isfinite(*it)) throw complain("has values that are not finite", "repair the file");
-  return grid;
-}
-
-glm::dvec3 toGlm(const openvdb::Vec3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-}  // namespace
 
 struct DensityGrid::Impl {
   nanovdb::GridHandle<nanovdb::HostBuffer> handle;
@@ -101,38 +27,30 @@ struct DensityGrid::Impl {
 
 DensityGrid::DensityGrid(const std::string& fileAndGrid, const DensityPlacement& placement)
     : impl_(std::make_unique<Impl>()) {
-  const Named named = splitName(fileAndGrid);
-  const openvdb::FloatGrid::Ptr grid = checkedGrid(named);
-  gridName_ = grid->getName();
-  impl_->activeVoxels = grid->activeVoxelCount();
-  const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
-  impl_->lowerI = toGlm(box.min().asVec3d()) - 1.0;
-  impl_->upperI = toGlm(box.max().asVec3d()) + 1.0;
+  const DensityFile file = readDensityFile(fileAndGrid);
+  gridName_ = file.gridName;
+  impl_->activeVoxels = file.facts.activeVoxels;
+  impl_->lowerI = file.facts.lowerI - 1.0;
+  impl_->upperI = file.facts.upperI + 1.0;
   impl_->centerI = 0.5 * (impl_->lowerI + impl_->upperI);
-
-  const openvdb::math::Transform& transform = grid->transform();
-  const auto fileFromIndex = [&](const glm::dvec3& index) {
-    return toGlm(transform.indexToWorld(openvdb::Vec3d(index.x, index.y, index.z)));
-  };
-  const glm::dvec3 origin = fileFromIndex(glm::dvec3(0.0));
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 unit(0.0);
-    unit[axis] = 1.0;
-    impl_->worldFromIndex[axis] = placement.scale * (fileFromIndex(unit) - origin);
-  }
+  impl_->worldFromIndex = placement.scale * file.facts.worldFromIndex;
   if (const double det = glm::determinant(impl_->worldFromIndex); !(std::abs(det) > 0.0) || !std::isfinite(det))
-    throw fileError(named.path, fmt::format("its grid '{}' has voxels of zero volume", gridName_),
+    throw fileError(file.path, fmt::format("its grid '{}' has voxels of zero volume", gridName_),
                     "repair its transform");
   impl_->indexFromWorld = glm::inverse(impl_->worldFromIndex);
-  impl_->centerW = placement.centerW.value_or(fileFromIndex(impl_->centerI));
+  impl_->centerW = placement.centerW.value_or(file.facts.centerW) - placement.originW;
   place_ = {.centerW = glm::vec3(impl_->centerW),
             .centerI = glm::vec3(impl_->centerI),
             .indexFromWorld = glm::mat3(impl_->indexFromWorld),
             .lowerI = glm::vec3(impl_->lowerI),
             .upperI = glm::vec3(impl_->upperI)};
 
-  impl_->handle = nanovdb::openToNanoVDB(*grid);
+  nanovdb::HostBuffer buffer = nanovdb::HostBuffer::create(file.nanoVdb.size());
+  std::memcpy(buffer.data(), file.nanoVdb.data(), file.nanoVdb.size());
+  impl_->handle = nanovdb::GridHandle<nanovdb::HostBuffer>(std::move(buffer));
   impl_->grid = impl_->handle.grid<float>();
+  if (impl_->grid == nullptr || impl_->grid->gridSize() != file.nanoVdb.size() || !nanovdb::isValid(*impl_->grid))
+    throw fileError(file.path, fmt::format("its grid '{}' is damaged", gridName_), "repair the file");
 }
 
 DensityGrid::~DensityGrid() = default;

@@ -21,6 +21,7 @@ namespace gnomon {
 struct DensityPlacement {
   double scale = 1.0;                 // of its size, about the centre of its bounds
   std::optional<glm::dvec3> centerW;  // where that centre goes, metres; absent: where it is
+  glm::dvec3 originW{0.0};            // Scene::originW: both are in the scene file's coordinates
 };
 
 class DensityGrid final : public DensityField {

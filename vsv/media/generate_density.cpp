@@ -1,6 +1,7 @@
 #include "vsv/media/generate_density.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "vsv/vdb_archive.h"
 
 #include <algorithm>
@@ -113,7 +114,7 @@ DensityAt densityNamed(const std::string& name, uint32_t seed) {
     };
   std::vector<const char*> names;
   for (const GeneratedDensity& density : generatedDensities()) names.push_back(density.name);
-  throw UsageError(fmt::format("--density {}: choose from {}", name, fmt::join(names, ", ")));
+  throw UsageError(fmt::format("--density {}: {}", name, chooseFrom(name, fmt::format("{}", fmt::join(names, ", ")))));
 }
 
 std::unique_ptr<Leaf> leafOf(const openvdb::Coord& origin, const std::function<double(const openvdb::Coord&)>& at) {

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/suggest.h"
 
 #include <algorithm>
 
@@ -39,7 +40,7 @@ const std::vector<Integrator>& integrators() {
 const Integrator& findIntegrator(const std::string& name) {
   const auto found = std::ranges::find_if(integrators(), [&](const Integrator& i) { return i.name == name; });
   if (found == integrators().end())
-    throw UsageError(fmt::format("--integrators {}: choose from {}", name, integratorNames()));
+    throw UsageError(fmt::format("--integrators {}: {}", name, chooseFrom(name, integratorNames())));
   return *found;
 }
 

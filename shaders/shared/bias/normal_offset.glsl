@@ -4,6 +4,7 @@
 #ifndef GNOMON_BIAS_NORMAL_OFFSET_GLSL
 #define GNOMON_BIAS_NORMAL_OFFSET_GLSL
 
+#include "shared/bias/moved_lookup.glsl"
 #include "shared/bias/none.glsl"
 #include "shared/lang.glsl"
 
@@ -16,16 +17,11 @@ GNOMON_FN Receiver normalOffsetReceiver(ShadowMap map, BiasParams params, Receiv
   MapPoint point = mapProject(map, receiver.posL);
   if (!point.covered) return receiver;
   Ray ray = mapTexelRay(map, point.slice, point.uv);
-  Ray next = mapTexelRay(map, point.slice, vec2(point.uv.x + 1.0f / float(map.width), point.uv.y));
-  float along = dot(receiver.posL - ray.origin, ray.dir);
-  vec3 across = (next.origin + next.dir * along) - (ray.origin + ray.dir * along);
-  float texel = length(across);  // metres
+  float texel = texelWidthAt(map, point, ray, receiver.posL);
   float facing = clamp(-dot(receiver.normalL, ray.dir), 0.0f, 1.0f);
   float sine = sqrt(max(1.0f - facing * facing, 0.0f));
-  Receiver moved = receiver;
-  moved.posL = receiver.posL + receiver.normalL * (params.knobs[kNormalOffsetTexels] * texel * sine);
-  if (!mapProject(map, moved.posL).covered) return receiver;
-  return moved;
+  return movedWithin(map, receiver,
+                     receiver.posL + receiver.normalL * (params.knobs[kNormalOffsetTexels] * texel * sine));
 }
 
 GNOMON_SHARED_END

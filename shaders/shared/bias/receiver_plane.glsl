@@ -13,11 +13,8 @@ GNOMON_SHARED_BEGIN
 
 const int kReceiverPlaneOffset = 0;  // metres
 
-GNOMON_FN bool receiverPlaneLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
-  float depth = depthTowardsLight(map, tap.slice, receiver.posL, tap.ray, params.knobs[kReceiverPlaneOffset]);
-  MapPoint point = mapProject(map, receiver.posL);
-  if (point.slice != tap.slice) return depth <= tap.z1;  // a tap across an edge of the map: no gradient leads there
-  vec2 uv = point.uv;
+// By how much the receiver's plane changes depth from the receiver, which falls on uv of the tap's slice, to the tap.
+GNOMON_FN float planeDepthChangeToTap(ShadowMap map, vec2 uv, Receiver receiver, Tap tap) {
   vec2 texel = vec2(1.0f / float(map.width), 1.0f / float(map.height));
   PlaneDepth here = receiverPlaneDepth(map, tap.slice, receiver, mapTexelRay(map, tap.slice, uv));
   PlaneDepth right = receiverPlaneDepth(map, tap.slice, receiver,
@@ -25,9 +22,15 @@ GNOMON_FN bool receiverPlaneLit(ShadowMap map, BiasParams params, Receiver recei
   PlaneDepth below = receiverPlaneDepth(map, tap.slice, receiver,
                                         mapTexelRay(map, tap.slice, vec2(uv.x, uv.y + texel.y)));
   vec2 center = mapTexelCenter(map, tap.texel);
-  float change = (right.depth - here.depth) * ((center.x - uv.x) / texel.x) +
-                 (below.depth - here.depth) * ((center.y - uv.y) / texel.y);
-  return depth + change <= tap.z1;
+  return (right.depth - here.depth) * ((center.x - uv.x) / texel.x) +
+         (below.depth - here.depth) * ((center.y - uv.y) / texel.y);
+}
+
+GNOMON_FN bool receiverPlaneLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {
+  float depth = depthTowardsLight(map, tap.slice, receiver.posL, tap.ray, params.knobs[kReceiverPlaneOffset]);
+  MapPoint point = mapProject(map, receiver.posL);
+  if (point.slice != tap.slice) return depth <= tap.z1;  // a tap across an edge of the map: no gradient leads there
+  return depth + planeDepthChangeToTap(map, point.uv, receiver, tap) <= tap.z1;
 }
 
 GNOMON_SHARED_END

@@ -160,7 +160,7 @@ std::string benchJson(const Session& session, const Bench& bench, const std::str
         {{"size", growth.size}, {"unit", growth.unit}, {"stages", growth.stages}, {"points", points}});
   }
   if (bench.start) json["start"] = {{"cold_ms", bench.start->coldMs}, {"warm_ms", bench.start->warmMs}};
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string growthSvg(const std::vector<Growth>& growths) {

@@ -2,7 +2,9 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "judge/filtered_truth.h"
 #include "lab/compare/compare_command.h"
+#include "lab/compare/equal_error.h"
 #include "lab/compare/robustness.h"
 #include "lab/compare/row_pictures.h"
 #include "lab/compare/tune.h"
@@ -38,16 +40,15 @@ TruthSummary summarize(const Parameterization& map, const GroundTruth& exact) {
           .receiversAndTraceMs = exact.ms};
 }
 
-// A row before it is judged.
+// A method, and after it its rows: one a filter, but of a tuned one the row of the filter it was tuned for.
 struct Entry {
   Method method;
   std::optional<Tuning> tuning;
-  size_t row = 0;  // the first of its rows, one a filter
-};
+  const Filter* tunedFor = nullptr;
+  size_t row = 0;  // the first one
 
-std::string filterKnobName(const Knob& knob) {
-  return fmt::format("filter_{}", knob.name);
-}
+  bool has(const Filter& filter) const { return tunedFor == nullptr || tunedFor == &filter; }
+};
 
 // Knobs, then what the map holds and how it is drawn and fitted.
 Params paramsOf(const Method& method, const Filter& filter, const Parameterization& map, const FittedMap& fitted,
@@ -57,12 +58,27 @@ Params paramsOf(const Method& method, const Filter& filter, const Parameterizati
   for (const Knob& knob : knobsOf(bias)) params.push_back({knob.name, shortest(valueOf(method.params, bias, knob))});
   const ChosenFilter chosen = filterFor(choice, filter);
   for (size_t i = 0; i < filter.knobs.size(); ++i)
-    params.push_back({filterKnobName(filter.knobs[i]), shortest(chosen.params.knobs[i])});
-  if (bias.takesEpsilonAt) params.push_back({"epsilon_at", epsilonAtName(method.params.epsilonAt)});
+    params.push_back({filterParamName(filter.knobs[i].name), shortest(chosen.params.knobs[i])});
+  for (const BiasChoice* way : bias.choices) params.push_back({way->name, way->text(method.params)});
   params.push_back({"map_content", contentName(bias.channels)});
   params.push_back({"cull", cullModeName(choice.cull)});
   for (const Param& param : mapParams(map, fitted, choice.mapOptions)) params.push_back(param);
   return params;
+}
+
+std::optional<Walks> walksOf(const WalkCounts& counts) {
+  if (counts.walks == 0) return std::nullopt;
+  const auto share = [&](int end) { return static_cast<double>(counts.ends[end]) / static_cast<double>(counts.walks); };
+  return Walks{.count = counts.walks,
+               .meanSteps = static_cast<double>(counts.steps) / static_cast<double>(counts.walks),
+               .longest = static_cast<int>(counts.longest),
+               .receiver = share(glsl::kWalkReceiver),
+               .witness = share(glsl::kWalkWitness),
+               .behind = share(glsl::kWalkBehind),
+               .hole = share(glsl::kWalkHole),
+               .open = share(glsl::kWalkOpen),
+               .fold = share(glsl::kWalkFold),
+               .aborted = counts.ends[glsl::kWalkAborted]};
 }
 
 void describe(Row& row, const Entry& entry, const LabelledResult& judged) {
@@ -80,16 +96,7 @@ void describe(Row& row, const Entry& entry, const LabelledResult& judged) {
   row.scored = row.agree + row.acne + row.leak + row.edgeShadow + row.edgeLight + row.uncovered;
   row.grazing = judged.grazing;
   row.edgeOn = judged.edgeOn.size();
-}
-
-double rmseOf(const Receivers& receivers, std::span<const float> visibility, std::span<const float> truth) {
-  double sum = 0.0;
-  for (size_t i = 0; i < truth.size(); ++i) {
-    if (receivers.states[i] != PixelState::Scored) continue;
-    const double difference = static_cast<double>(visibility[i]) - static_cast<double>(truth[i]);
-    sum += difference * difference;
-  }
-  return std::sqrt(sum / static_cast<double>(receivers.scored));
+  row.walks = walksOf(judged.walks);
 }
 
 // Everything of one map: its rows, its summary, its pictures.
@@ -149,13 +156,18 @@ class MapComparison {
     if (!options_.tune) return entries;
     std::optional<Robustness> robustness;
     if (options_.tuneElsewhere) robustness.emplace(lit_, options_);
-    TuningEvaluator evaluator(lit_);
     const size_t count = entries.size();
-    for (size_t i = 0; i < count; ++i) {
-      if (knobsOf(*entries[i].method.bias).empty()) continue;
-      step(fmt::format("{}, tuning", entries[i].method.bias->name));
-      const TunedMethod tuned = tune(evaluator, entries[i].method);
-      entries.push_back({.method = tuned.method, .tuning = robustness ? robustness->judge(tuned) : tuningOf(tuned)});
+    for (const Filter* filter : options_.filters) {
+      const ChosenFilter chosen = filterFor(options_, *filter);
+      TuningEvaluator evaluator(lit_, chosen);
+      for (size_t i = 0; i < count; ++i) {
+        if (knobsOf(*entries[i].method.bias).empty()) continue;
+        step(fmt::format("{}, tuning", entries[i].method.bias->name));
+        const TunedMethod tuned = tune(evaluator, entries[i].method);
+        entries.push_back({.method = tuned.method,
+                           .tuning = robustness ? robustness->judge(tuned, chosen) : tuningOf(tuned),
+                           .tunedFor = filter});
+      }
     }
     return entries;
   }
@@ -164,6 +176,7 @@ class MapComparison {
     const LabelledResult judged = lit_.judge(entry.method);
     const FittedMap& fitted = lit_.fitted();
     for (const Filter* filter : options_.filters) {
+      if (!entry.has(*filter)) continue;
       const FilteredTruth& truth = filteredTruth(*filter);
       std::vector<float> visibility = filter->id == glsl::kShadowFilterNone
                                           ? judged.visibility
@@ -175,12 +188,14 @@ class MapComparison {
       row.mapSide = fitted.map.width;
       row.layers = fitted.map.sliceCount;
       row.mapTexels = size_t{1} * fitted.map.width * fitted.map.height * fitted.map.sliceCount;
+      row.mapBytes = mapBytes(fitted, entry.method.bias->channels);
       row.mapDimensions = mapSizeText(fitted);
+      row.isGiven = isGiven(*entry.method.bias);
       row.params = paramsOf(entry.method, *filter, parameterization_, fitted, options_);
       row.filter = filter->name;
       describe(row, entry, judged);
-      for (const Knob& knob : filter->knobs) row.units.emplace_back(filterKnobName(knob), unitName(knob.unit));
-      row.rmse = rmseOf(lit_.receivers(), visibility, truth.visibility);
+      for (const Knob& knob : filter->knobs) row.units.emplace_back(filterParamName(knob.name), unitName(knob.unit));
+      row.rmse = scoredRmse(lit_.receivers(), visibility, truth.visibility);
       const int width = lit_.receivers().width, height = lit_.receivers().height;
       row.worstAcne = findWorstPlace(judged.labels, width, height, Label::Acne);
       row.worstLeak = findWorstPlace(judged.labels, width, height, Label::Leak);
@@ -196,13 +211,19 @@ class MapComparison {
     }
   }
 
+  bool isGiven(const BiasMethod& bias) const {
+    return std::ranges::any_of(options_.knobs, [&](const KnobValue& value) { return hasKnob(bias, *value.knob); });
+  }
+
   RowPictureNames namesOf(const Row& row) const {
     RowPictureNames names;
     names.labelStem = fmt::format("{}/{}{}", folder_, row.bias, row.tuning ? ".tuned" : "");
-    names.stem = names.labelStem + (row.filter == "none" ? "" : "." + row.filter);
+    names.stem = names.labelStem + (row.isFiltered() ? "." + row.filter : "");
+    const bool labelsOfItsOwn = row.isTuned() && options_.filters.size() > 1;
+    if (labelsOfItsOwn) names.labelStem = names.stem;
     names.title = fmt::format("{} {}{}, {} x {} texels", row.map, row.bias, row.tuning ? " tuned" : "", row.mapSide,
                               lit_.fitted().map.height);
-    names.writesLabels = row.filter == options_.filters.front()->name;
+    names.writesLabels = labelsOfItsOwn || row.filter == options_.filters.front()->name;
     return names;
   }
 
@@ -227,9 +248,12 @@ class MapComparison {
     }
     for (const Entry& entry : entries) {
       const auto like = std::ranges::find(options_.biases, entry.method.bias) - options_.biases.begin();
+      size_t at = entry.row;
       for (size_t f = 0; f < filterCount; ++f) {
-        rows_[entry.row + f].buildMs = median(build[entry.method.bias->channels]);
-        rows_[entry.row + f].shadeMs = median(shade[static_cast<size_t>(like) * filterCount + f]);
+        if (!entry.has(*options_.filters[f])) continue;
+        Row& row = rows_[at++];
+        row.buildMs = median(build[entry.method.bias->channels]);
+        row.shadeMs = median(shade[static_cast<size_t>(like) * filterCount + f]);
       }
     }
   }
@@ -284,10 +308,11 @@ void addSums(Comparison& comparison) {
       sum.isSum = true;
       sum.pictures.clear();
       sum.worstAcne = sum.worstLeak = std::nullopt;
+      sum.walks = std::nullopt;
       sum.flip = std::nullopt;
-      if (sum.tuning) {  // each light has its own
-        std::erase_if(sum.params, [&](const Param& param) { return sum.isKnob(param); });
-        sum.units.clear();
+      if (sum.tuning) {  // of the bias each light has its own values; the filter is one for all
+        std::erase_if(sum.params, [&](const Param& param) { return sum.isKnob(param) && !isFilterParam(param.name); });
+        std::erase_if(sum.units, [](const auto& unit) { return !isFilterParam(unit.first); });
       }
       continue;
     }
@@ -306,7 +331,8 @@ void addSums(Comparison& comparison) {
 int stepsPerMap(const CompareOptions& options) {
   const auto tuned = std::ranges::count_if(
       options.biases, [&](const BiasMethod* bias) { return options.tune && !knobsOf(*bias).empty(); });
-  return 3 + options.repeats + static_cast<int>(options.biases.size()) + 2 * static_cast<int>(tuned);
+  const int tunedRows = static_cast<int>(tuned) * static_cast<int>(options.filters.size());
+  return 3 + options.repeats + static_cast<int>(options.biases.size()) + 2 * tunedRows;
 }
 
 }  // namespace
@@ -323,6 +349,12 @@ std::string mapSizeText(const FittedMap& fitted) {
   const glsl::EpipolarGrid& grid = fitted.map.epipolar;
   if (fitted.map.kind != glsl::kMapEpipolar) return fmt::format("{}", fitted.map.width);
   return volumeSizeName({.alpha = grid.alphaCount, .theta = grid.thetaCount, .phi = grid.phiCount});
+}
+
+size_t mapBytes(const FittedMap& fitted, ChannelSet channels) {
+  const glsl::EpipolarGrid& grid = fitted.map.epipolar;
+  if (fitted.map.kind == glsl::kMapEpipolar) return size_t{1} * grid.alphaCount * grid.thetaCount * grid.phiCount / 8;
+  return size_t{1} * fitted.map.width * fitted.map.height * fitted.map.sliceCount * bytesOf(completed(channels));
 }
 
 Comparison compare(const Session& session, const CompareOptions& options) {
@@ -353,10 +385,12 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   }
   if (comparison.rows.empty()) openLight(session, passes, *options.maps.front(), {});  // says why
   if (severalLights) addSums(comparison);
+  if (options.recommend) measureRecommended(session, passes, options, comparison.rows);
   for (Row& row : comparison.rows) {
     row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
     row.command = rowCommand(session.setup(), options, row);
   }
+  if (options.untilError) comparison.equalError = findEqualError(session, passes, options, comparison.gbufferMs);
   return comparison;
 }
 

@@ -69,7 +69,9 @@ void addBiases(Words& words, const CompareOptions& options) {
   words.flag("--biases", namesOf(options.biases, [](const BiasMethod* bias) { return bias->name; }));
   for (const KnobValue& value : options.knobs)
     if (usesKnob(options, value.knob)) addKnob(words, value);
-  if (options.epsilonAt != CompareOptions().epsilonAt) words.flag("--epsilon-at", epsilonAtName(options.epsilonAt));
+  for (const BiasChoice* choice : biasChoices())
+    if (options.choices.*choice->member != choice->numbers.front())
+      words.flag(choice->flag(), choice->text(options.choices));
   if (options.tune) words.word("--tune");
   const std::string filters = namesOf(options.filters, [](const Filter* filter) { return filter->name; });
   if (filters != "none") words.flag("--filters", filters);

@@ -92,6 +92,28 @@ RenderedPicture layerGap(const Subject& subject) {
   return metres(*twoDepthsOf(subject.lit).gap);
 }
 
+// Which triangle each texel sees; as data its instance and its number in the mesh, counted from 1.
+RenderedPicture ids(const Subject& subject) {
+  LightOnMap& lit = subject.lit;
+  if (!lit.parameterization().supportsBias(findBias("two-plane")))
+    throw UsageError(
+        fmt::format("--show ids: a {} map stores no triangles; choose another map", lit.parameterization().name()));
+  const glsl::ShadowMap& shape = lit.fitted().map;
+  const SceneBuffers& scene = lit.view().buffers();
+  const std::vector<uint32_t> stored =
+      lit.occluders(glsl::kChannelDepth | glsl::kChannelIds).downloadIds(lit.view().device());
+  ImageF data(shape.width * shape.sliceCount, shape.height, 2);
+  for (size_t i = 0; i < stored.size(); ++i) {
+    const int x = static_cast<int>(i) % shape.width, row = static_cast<int>(i) / shape.width;
+    const int slice = row / shape.height, y = row % shape.height;
+    const glsl::PrimitiveId id = primitiveOf(scene.ids, scene.firstTriangles, stored[i]);
+    float* values = data.at(slice * shape.width + x, y);
+    values[0] = static_cast<float>(id.instancePlusOne);
+    values[1] = id.instancePlusOne == 0 ? 0.0f : static_cast<float>(id.triangle + 1);
+  }
+  return {idPicture(data), data, {"instance", "triangle"}, {}};
+}
+
 RenderedPicture texelDensity(const Subject& subject) {
   const LightOnMap& lit = subject.lit;
   const std::vector<float> densities = lit.texelDensities();
@@ -114,6 +136,7 @@ constexpr std::array kShown = {ShowChoice{"beauty", beauty},
                                ShowChoice{"depth", depth},
                                ShowChoice{"second-depth", secondDepth},
                                ShowChoice{"layer-gap", layerGap},
+                               ShowChoice{"ids", ids},
                                ShowChoice{"texel-density", texelDensity}};
 
 }  // namespace

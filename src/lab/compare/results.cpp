@@ -8,6 +8,7 @@ namespace gnomon {
 std::string resultsJson(const Session& session, const Comparison& comparison, const std::string& command) {
   Comparison whole = comparison;
   static_cast<ResultsHead&>(whole) = resultsHead(session, command, comparison.gbufferMs);
+  whole.files = comparison.files;
   return resultsText(whole);
 }
 

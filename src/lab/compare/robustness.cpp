@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -47,37 +48,56 @@ Camera orbitedCamera(const SceneView& view) {
                 view.camera().yFovRad);
 }
 
-// Another picture or another map of it, with a search's memory.
+// Another picture or another map of it, with a search's memory for each filter.
 struct Robustness::Place {
   LightOnMap lit;
-  TuningEvaluator evaluator;
+  std::map<int, TuningEvaluator> evaluators;
 
-  explicit Place(LightOnMap l) : lit(std::move(l)), evaluator(lit) {}
+  explicit Place(LightOnMap l) : lit(std::move(l)) {}
+  TuningEvaluator& evaluator(const ChosenFilter& filter) {
+    return evaluators.try_emplace(filter.id, lit, filter).first->second;
+  }
+
+  Transfer judge(const TunedMethod& tuned, const ChosenFilter& filter);
+  void judge(const Method& method, const ChosenFilter& filter, ErrorElsewhere& there);
 };
 
-Robustness::Robustness(const LightOnMap& tuned, const CompareOptions& options)
-    : otherView_(tuned.view(), orbitedCamera(tuned.view())) {
-  const MapSetup setup = mapSetupOf(options, tuned.parameterization());
-  LightOnMap other(otherView_, tuned.passes(), tuned.parameterization(), tuned.source(), tuned.light(), setup);
+Robustness::Robustness(const LightOnMap& here, const CompareOptions& options)
+    : otherView_(here.view(), orbitedCamera(here.view())) {
+  const MapSetup setup = mapSetupOf(options, here.parameterization());
+  LightOnMap other(otherView_, here.passes(), here.parameterization(), here.source(), here.light(), setup);
   if (other.receivers().scored > 0) otherCamera_ = std::make_unique<Place>(std::move(other));
   MapSetup halved = setup;
   halved.side = std::max(setup.side / 2, 2);
-  halved.options = tuned.parameterization().halved(setup.options);
-  otherMapSize_ = std::make_unique<Place>(LightOnMap(tuned, halved));
+  halved.options = here.parameterization().halved(setup.options);
+  otherMapSize_ = std::make_unique<Place>(LightOnMap(here, halved));
 }
 
 Robustness::~Robustness() = default;
 
-Transfer Robustness::judgeAt(Place& place, const TunedMethod& tuned) {
+Transfer Robustness::Place::judge(const TunedMethod& tuned, const ChosenFilter& filter) {
+  TuningEvaluator& evaluator_ = evaluator(filter);
+  const double error = evaluator_.error(tuned.method);
+  const TunedMethod best = tune(evaluator_, tuned.method);
+  const Method& better = (best.error <= error ? best : tuned).method;
   Transfer transfer;
-  const double scored = place.evaluator.scored();
-  const size_t errors = place.evaluator.biasErrors(tuned.method);
-  const TunedMethod best = tune(place.evaluator, tuned.method);
-  transfer.biasError = static_cast<double>(errors) / scored;
-  transfer.bestBiasError = static_cast<double>(std::min(best.biasErrors, errors)) / scored;
-  const Method& better = (best.biasErrors <= errors ? best : tuned).method;
   transfer.bestValue = valueOf(better.params, *better.bias, knobsOf(*better.bias).front());
+  transfer.biasError = static_cast<double>(evaluator_.biasErrors(tuned.method)) / evaluator_.scored();
+  transfer.bestBiasError = static_cast<double>(evaluator_.biasErrors(better)) / evaluator_.scored();
+  if (!evaluator_.isFiltered()) return transfer;
+  transfer.rmse = error;
+  transfer.bestRmse = std::min(best.error, error);
   return transfer;
+}
+
+void Robustness::Place::judge(const Method& method, const ChosenFilter& filter, ErrorElsewhere& there) {
+  const LabelledResult judged = lit.judge(method);
+  const auto share = [&](size_t pixels) {
+    return static_cast<double>(pixels) / static_cast<double>(lit.receivers().scored);
+  };
+  there.biasError = share(judged.labels.count(Label::Acne) + judged.labels.count(Label::Leak));
+  there.allWrong = share(lit.receivers().scored - judged.labels.count(Label::Agree));
+  if (filter.id != glsl::kShadowFilterNone) there.rmse = evaluator(filter).rmse(method);
 }
 
 Tuning tuningOf(const TunedMethod& tuned) {
@@ -90,11 +110,65 @@ Tuning tuningOf(const TunedMethod& tuned) {
   return tuning;
 }
 
-Tuning Robustness::judge(const TunedMethod& tuned) {
+Tuning Robustness::judge(const TunedMethod& tuned, const ChosenFilter& filter) {
   Tuning tuning = tuningOf(tuned);
-  if (otherCamera_) tuning.otherCamera = {judgeAt(*otherCamera_, tuned), otherView_.camera().name};
-  tuning.otherMapSize = {judgeAt(*otherMapSize_, tuned), otherMapSize_->lit.fitted().map.width};
+  if (otherCamera_) tuning.otherCamera = {otherCamera_->judge(tuned, filter), otherView_.camera().name};
+  tuning.otherMapSize = {otherMapSize_->judge(tuned, filter), otherMapSize_->lit.fitted().map.width};
   return tuning;
+}
+
+Elsewhere Robustness::judge(const Method& method, const ChosenFilter& filter) {
+  Elsewhere elsewhere;
+  if (otherCamera_) otherCamera_->judge(method, filter, elsewhere.otherCamera.emplace());
+  if (elsewhere.otherCamera) elsewhere.otherCamera->camera = otherView_.camera().name;
+  otherMapSize_->judge(method, filter, elsewhere.otherMapSize.emplace());
+  elsewhere.otherMapSize->mapSize = otherMapSize_->lit.fitted().map.width;
+  return elsewhere;
+}
+
+namespace {
+
+void keepLarger(ErrorElsewhere& kept, const ErrorElsewhere& other) {
+  kept.biasError = std::max(kept.biasError, other.biasError);
+  kept.allWrong = std::max(kept.allWrong, other.allWrong);
+  if (other.rmse) kept.rmse = std::max(kept.rmse.value_or(0.0), *other.rmse);
+}
+
+template <typename T>
+void keepLarger(std::optional<T>& kept, const std::optional<T>& other) {
+  if (!kept)
+    kept = other;
+  else if (other)
+    keepLarger(*kept, *other);
+}
+
+// How wrong a row's method is from another camera and on half the map. Of several lights the largest errors.
+Elsewhere elsewhereOf(const Session& session, ShadowPasses& passes, const CompareOptions& options, const Row& row) {
+  const Parameterization& map = **std::ranges::find(options.maps, row.map, &Parameterization::name);
+  const BiasMethod& bias = **std::ranges::find(options.biases, row.bias, &BiasMethod::name);
+  const Filter& filter = **std::ranges::find(options.filters, row.filter, &Filter::name);
+  Elsewhere elsewhere;
+  for (const Light& light : chooseLights(session.setup(), session.tracer(), map)) {
+    const LightOnMap lit(session, passes, map, light, mapSetupOf(options, map));
+    if (lit.receivers().scored == 0) continue;
+    const Elsewhere one = Robustness(lit, options).judge(methodFor(session, options, bias), filterFor(options, filter));
+    keepLarger(elsewhere.otherCamera, one.otherCamera);
+    keepLarger(elsewhere.otherMapSize, one.otherMapSize);
+  }
+  return elsewhere;
+}
+
+}  // namespace
+
+void measureRecommended(const Session& session, ShadowPasses& passes, const CompareOptions& options,
+                        std::vector<Row>& rows) {
+  if (options.maps.size() * options.biases.size() * options.filters.size() < 2) return;
+  const std::vector<Row> inOrder = ranked(rows);
+  const Row& best = *bestOf(inOrder).untuned;
+  for (Row& row : rows)
+    if (row.map == best.map && row.light == best.light && row.isSum == best.isSum && row.bias == best.bias &&
+        row.filter == best.filter && !row.isTuned())
+      row.elsewhere = elsewhereOf(session, passes, options, row);
 }
 
 }  // namespace gnomon

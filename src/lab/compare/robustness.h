@@ -1,6 +1,6 @@
 #pragma once
-// How well tuned parameters work where they were not tuned, since nobody tunes a bias every frame: the same scene and
-// light, seen by another camera, and mapped at half the resolution.
+// How well parameters work where they were not chosen, since nobody tunes a bias every frame: the same scene and light,
+// seen by another camera, and mapped at half the resolution.
 
 #include "lab/compare/compare.h"
 #include "lab/compare/tune.h"
@@ -17,19 +17,25 @@ Tuning tuningOf(const TunedMethod& tuned);
 
 class Robustness {
  public:
-  Robustness(const LightOnMap& tuned, const CompareOptions& options);
+  Robustness(const LightOnMap& here, const CompareOptions& options);
   ~Robustness();
 
-  // The tuned value there, and the best one there. Where the other camera sees nothing that faces the light,
-  // it is left out.
-  Tuning judge(const TunedMethod& tuned);
+  // The value that was tuned through this filter there, and the best one there. Where the other camera sees nothing
+  // that faces the light, it is left out.
+  Tuning judge(const TunedMethod& tuned, const ChosenFilter& filter);
+
+  // A method as it is, there.
+  Elsewhere judge(const Method& method, const ChosenFilter& filter);
 
  private:
   struct Place;
-  Transfer judgeAt(Place& place, const TunedMethod& tuned);
 
   SceneView otherView_;
   std::unique_ptr<Place> otherCamera_, otherMapSize_;
 };
+
+// Sets Row::elsewhere of the best row that is not tuned, where there are several methods to choose from.
+void measureRecommended(const Session& session, ShadowPasses& passes, const CompareOptions& options,
+                        std::vector<Row>& rows);
 
 }  // namespace gnomon

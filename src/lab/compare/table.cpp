@@ -1,5 +1,7 @@
 #include "lab/compare/table.h"
 
+#include "lab/compare/recommendation.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -7,17 +9,6 @@
 namespace gnomon {
 
 namespace {
-
-std::string knobText(const Row& row) {
-  std::string text;
-  for (const Param& param : row.params) {
-    if (!row.isKnob(param)) continue;
-    const std::string unit = row.unitOf(param.name);
-    text += fmt::format("{}{} {:.4g}{}{}", text.empty() ? "" : ", ", param.name, std::get<double>(param.value),
-                        unit.empty() ? "" : " ", unit);
-  }
-  return text;
-}
 
 std::string biasText(const Row& row) {
   return row.bias + (row.tuning ? " (tuned)" : "");
@@ -32,75 +23,146 @@ std::string mapText(const Comparison& comparison, const Row& row) {
   return fmt::format("{} {}{}", row.map, row.mapDimensions, hasSums(comparison) ? ", " + row.light : "");
 }
 
-// The row of a bias on a map (of all lights together), unfiltered counts being the same for all filters.
-const Row* findRow(const Comparison& comparison, const std::string& map, const std::string& bias, bool tuned) {
+// The row of a bias on a map through a filter (of all lights together).
+const Row* findRow(const Comparison& comparison, const std::string& map, const std::string& filter,
+                   const std::string& bias, bool tuned) {
   for (const Row& row : comparison.rows)
-    if (row.map == map && row.bias == bias && row.tuning.has_value() == tuned && row.isSum == hasSums(comparison))
+    if (row.map == map && row.filter == filter && row.bias == bias && row.isTuned() == tuned &&
+        row.isSum == hasSums(comparison))
       return &row;
   return nullptr;
 }
 
-// "adaptive (default) against the best constant: 120 / 40 = 3.0". More than 1: better.
-std::string factorLines(const Comparison& comparison) {
+// "120 / 40 wrong pixels = 3.00", or of filtered rows their RMSE.
+std::string factorText(const Row& rival, const Row& row) {
+  const bool filtered = row.isFiltered();
+  const double theirs = filtered ? rival.rmse : static_cast<double>(rival.acne + rival.leak);
+  const double mine = filtered ? row.rmse : static_cast<double>(row.acne + row.leak);
+  const std::string factor = mine > 0.0     ? fmt::format("{:.2f}", theirs / mine)
+                             : theirs > 0.0 ? std::string("infinite")
+                                            : std::string("1 (both none)");
+  return filtered ? fmt::format("RMSE {:.4f} / {:.4f} = {}", theirs, mine, factor)
+                  : fmt::format("{:.0f} / {:.0f} wrong pixels = {}", theirs, mine, factor);
+}
+
+// "cube adaptive against the tuned constant: 120 / 40 wrong pixels = 3.00". More than 1: better.
+std::string factorLines(const Comparison& comparison, const std::string& map, const std::string& filter) {
   std::string text;
-  std::vector<std::string> told;
-  for (const MapSummary& map : comparison.maps) {
-    if (std::ranges::find(told, map.map) != told.end()) continue;
-    told.push_back(map.map);
-    for (const char* bias : {"dual", "adaptive"}) {
-      for (const bool tuned : {false, true}) {
-        const Row* row = findRow(comparison, map.map, bias, tuned);
-        for (const char* rivalName : {"constant", "slope"}) {
-          const Row* rival = findRow(comparison, map.map, rivalName, true);
-          if (row == nullptr || rival == nullptr) continue;
-          const size_t mine = row->acne + row->leak, theirs = rival->acne + rival->leak;
-          const std::string factor =
-              mine > 0     ? fmt::format("{:.2f}", static_cast<double>(theirs) / static_cast<double>(mine))
-              : theirs > 0 ? std::string("infinite")
-                           : std::string("1 (both none)");
-          text += fmt::format("{} {} against the tuned {}: {} / {} wrong pixels = {}\n", map.map, biasText(*row),
-                              rivalName, theirs, mine, factor);
-        }
+  for (const char* bias : {"dual", kDefaultBias}) {
+    for (const bool tuned : {false, true}) {
+      const Row* row = findRow(comparison, map, filter, bias, tuned);
+      for (const char* rivalName : {"constant", "slope"}) {
+        const Row* rival = findRow(comparison, map, filter, rivalName, true);
+        if (row == nullptr || rival == nullptr) continue;
+        text += fmt::format("{} {}{} against the tuned {}: {}\n", map, biasText(*row),
+                            row->isFiltered() ? ", " + filter + "," : "", rivalName, factorText(*rival, *row));
       }
     }
   }
   return text;
 }
 
+std::string factorLines(const Comparison& comparison) {
+  std::string text;
+  std::vector<std::pair<std::string, std::string>> told;
+  for (const Row& row : comparison.rows) {
+    const std::pair both(row.map, row.filter);
+    if (std::ranges::find(told, both) != told.end()) continue;
+    told.push_back(both);
+    text += factorLines(comparison, row.map, row.filter);
+  }
+  return text;
+}
+
+// The columns of text to the left of the numbers, each as wide as its widest cell.
+class TextColumns {
+ public:
+  void add(std::vector<std::string> cells) {  // the first one is the head
+    columns_.push_back(std::move(cells));
+    widths_.push_back(std::ranges::max(columns_.back(), {}, &std::string::size).size());
+  }
+  size_t width() const {
+    size_t sum = widths_.size() - 1;
+    for (const size_t width : widths_) sum += width;
+    return sum;
+  }
+  // Of the last column, down to its head.
+  void shortenBy(size_t letters) {
+    const size_t least = std::max(columns_.back().front().size(), size_t{12});
+    if (widths_.back() > least) widths_.back() -= std::min(letters, widths_.back() - least);
+  }
+  std::string line(size_t i) const {
+    std::string text;
+    for (size_t c = 0; c < columns_.size(); ++c) {
+      std::string cell = columns_[c][i];
+      if (cell.size() > widths_[c]) cell = cell.substr(0, widths_[c] - 2) + "..";
+      text += fmt::format("{}{:<{}}", c == 0 ? "" : " ", cell, widths_[c]);
+    }
+    return text;
+  }
+
+ private:
+  std::vector<std::vector<std::string>> columns_;
+  std::vector<size_t> widths_;
+};
+
+TextColumns textColumns(const Comparison& comparison, const std::vector<Row>& rows) {
+  std::vector<std::string> maps{"map"}, biases{"bias"}, filters{"filter"}, knobs{"parameters"};
+  for (const Row& row : rows) {
+    maps.push_back(mapText(comparison, row));
+    biases.push_back(biasText(row));
+    filters.push_back(row.filter);
+    knobs.push_back(knobText(row));
+  }
+  TextColumns columns;
+  columns.add(std::move(maps));
+  columns.add(std::move(biases));
+  if (std::ranges::any_of(rows, &Row::isFiltered)) columns.add(std::move(filters));
+  columns.add(std::move(knobs));
+  return columns;
+}
+
 }  // namespace
 
-std::string comparisonTable(const Comparison& comparison) {
-  size_t knobWidth = 5, mapWidth = 16;
-  for (const Row& row : comparison.rows) {
-    knobWidth = std::max(knobWidth, knobText(row).size());
-    mapWidth = std::max(mapWidth, mapText(comparison, row).size());
+std::string comparisonTable(const Comparison& comparison, const TableLayout& layout) {
+  std::vector<Row> rows = ranked(comparison.rows);
+  // Of several lights their sums; each is in the report.
+  std::erase_if(rows, [&](const Row& row) { return row.isSum != hasSums(comparison); });
+  if (rows.empty()) return "";
+  TextColumns texts = textColumns(comparison, rows);
+  const char* kept = rankingOf(rows) == Ranking::Rmse ? "rmse" : "";
+  int from = layout.wide ? kWideOnly + 1 : kWideOnly;
+  DeclaredColumns<Row> numbers(rows, from, kept);
+  if (!layout.wide && layout.width > 0) {
+    while (from > 1 && texts.width() + numbers.head().size() > layout.width)
+      numbers = DeclaredColumns<Row>(rows, --from, kept);
+    const size_t length = texts.width() + numbers.head().size();
+    if (length > layout.width) texts.shortenBy(length - layout.width);
   }
-  const DeclaredColumns<Row> columns(comparison.rows);
-  const auto line = [&](const std::string& map, const std::string& bias, const std::string& filter,
-                        const std::string& knobs, const std::string& numbers) {
-    return fmt::format("{:<{}} {:<25} {:<9} {:<{}}{}\n", map, mapWidth, bias, filter, knobs, knobWidth, numbers);
-  };
-  std::string text = line("map", "bias", "filter", "parameters", columns.head());
-  for (const Row& row : ranked(comparison.rows)) {
-    if (row.isSum != hasSums(comparison)) continue;  // of several lights their sums; each is in the report
-    text += line(mapText(comparison, row), biasText(row), row.filter, knobText(row), columns.line(row));
-  }
+  std::string text = texts.line(0) + numbers.head() + "\n";
+  for (size_t i = 0; i < rows.size(); ++i) text += texts.line(i + 1) + numbers.line(rows[i]) + "\n";
   return text;
 }
 
 std::string tuningTable(const Comparison& comparison) {
   std::string text;
+  const auto error = [](double biasError, std::optional<double> rmse) {
+    return rmse ? fmt::format("{:.4f}", *rmse) : fmt::format("{:.4f}%", 100.0 * biasError);
+  };
   for (const Row& row : comparison.rows) {
-    if (!row.tuning || row.isSum || row.filter != comparison.rows.front().filter) continue;
+    if (!row.tuning || row.isSum) continue;
     const Tuning& tuning = *row.tuning;
-    text += fmt::format("tuned {} {}: {} after {} evaluations; bias error {:.4f}%", row.map, row.bias, knobText(row),
-                        tuning.evaluations, 100.0 * row.biasError());
-    if (tuning.otherCamera)
-      text += fmt::format("; camera {} {:.4f}% (best there {:.4f}%)", tuning.otherCamera->camera,
-                          100.0 * tuning.otherCamera->biasError, 100.0 * tuning.otherCamera->bestBiasError);
-    if (tuning.otherMapSize)
-      text += fmt::format("; map of {} {:.4f}% (best there {:.4f}%)", tuning.otherMapSize->mapSize,
-                          100.0 * tuning.otherMapSize->biasError, 100.0 * tuning.otherMapSize->bestBiasError);
+    text += fmt::format("tuned {}{} {}{}: {} after {} evaluations; {} {}", row.map,
+                        hasSums(comparison) ? ", " + row.light + "," : "", row.bias,
+                        row.isFiltered() ? ", " + row.filter : "", knobText(row), tuning.evaluations,
+                        row.isFiltered() ? "RMSE" : "bias error",
+                        error(row.biasError(), row.isFiltered() ? std::optional(row.rmse) : std::nullopt));
+    const auto add = [&](const std::string& where, const Transfer& there) {
+      text += fmt::format("; {} {} (best there {})", where, error(there.biasError, there.rmse),
+                          error(there.bestBiasError, there.bestRmse));
+    };
+    if (tuning.otherCamera) add("camera " + tuning.otherCamera->camera, *tuning.otherCamera);
+    if (tuning.otherMapSize) add(fmt::format("map of {}", tuning.otherMapSize->mapSize), *tuning.otherMapSize);
     text += "\n";
   }
   return text + factorLines(comparison);

@@ -7,7 +7,12 @@
 
 namespace gnomon {
 
-std::string comparisonTable(const Comparison& comparison);
+struct TableLayout {
+  bool wide = false;  // all columns, whatever the width
+  size_t width = 0;   // letters of a line; 0: as long as it gets
+};
+
+std::string comparisonTable(const Comparison& comparison, const TableLayout& layout = {});
 
 // Of tuned rows: the value, how good it is elsewhere, and by what factor each method without a scene's knob
 // to guess beats the best constant and slope. Empty where nothing was tuned.

@@ -6,9 +6,9 @@
 //   spot/dual:leak>=10    in rows of that map and bias
 //
 // Metrics are the fields of a row that are declared as such (lab/results/row.h). Pixels are counts, unless a % follows;
-// bias_error is a share, rmse a number.
+// bias_error and all_wrong are shares, rmse and flip numbers, times milliseconds.
 
-#include "lab/results/row.h"
+#include "lab/compare/compare.h"
 
 #include <optional>
 #include <string>
@@ -32,7 +32,10 @@ std::string thresholdMetrics();
 // Throws UsageError.
 Threshold parseThreshold(const std::string& text);
 
-// A line that says which row crossed it, or nothing.
+// Throws UsageError, with the nearest name, where no row of such a comparison will be one that it means.
+void checkMeansARow(const Threshold& threshold, const CompareOptions& options);
+
+// A line that says which row crossed it, or nothing. Throws UsageError where it means none of the rows.
 std::optional<std::string> crossed(const Threshold& threshold, const std::vector<Row>& rows);
 
 }  // namespace gnomon

@@ -1,5 +1,7 @@
 #include "lab/compare/tune.h"
 
+#include "judge/filtered_truth.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,7 +24,7 @@ class KnobSearch {
     for (int i = 0; i < kTuneGrid; ++i) errors(gridValue(i));
     errors(knob_.lower);
     errors(valueOf(method_.params, *method_.bias, knob_));
-    std::vector<std::pair<float, size_t>> points(seen_.begin(), seen_.end());
+    std::vector<std::pair<float, double>> points(seen_.begin(), seen_.end());
     const auto [first, last] = bestRun(points);
     float value = points[(first + last) / 2].first;
     if (first == last && first > 0 && first + 1 < points.size())
@@ -43,15 +45,15 @@ class KnobSearch {
     return changed;
   }
 
-  size_t errors(float value) {
+  double errors(float value) {
     const auto found = seen_.find(value);
     if (found != seen_.end()) return found->second;
-    return seen_.emplace(value, evaluator_.biasErrors(with(value))).first->second;
+    return seen_.emplace(value, evaluator_.error(with(value))).first->second;
   }
 
-  // The longest run of neighbouring points with the fewest errors.
-  static std::pair<size_t, size_t> bestRun(const std::vector<std::pair<float, size_t>>& points) {
-    const size_t least = std::ranges::min_element(points, {}, [](const auto& p) { return p.second; })->second;
+  // The longest run of neighbouring points with the least error.
+  static std::pair<size_t, size_t> bestRun(const std::vector<std::pair<float, double>>& points) {
+    const double least = std::ranges::min_element(points, {}, [](const auto& p) { return p.second; })->second;
     std::pair<size_t, size_t> best{0, 0};
     bool found = false;
     for (size_t i = 0; i < points.size(); ++i) {
@@ -65,7 +67,7 @@ class KnobSearch {
     return best;
   }
 
-  // The count steps, so golden section may end beside the best value it has seen: that one is returned.
+  // A count steps, so golden section may end beside the best value it has seen: that one is returned.
   float golden(float lower, float value, float upper) {
     double a = std::log(std::max(lower, 1e-3f * value));
     double b = std::log(upper);
@@ -95,10 +97,29 @@ class KnobSearch {
   Method method_;
   const Knob& knob_;
   float unit_;
-  std::map<float, size_t> seen_;
+  std::map<float, double> seen_;
 };
 
 }  // namespace
+
+double TuningEvaluator::error(const Method& method) {
+  return isFiltered() ? rmse(method) : static_cast<double>(biasErrors(method));
+}
+
+double TuningEvaluator::rmse(const Method& method) {
+  ++evaluations_;
+  const Receivers& receivers = lit_.receivers();
+  if (filteredTruth_.empty()) {
+    filteredTruth_ = lit_.filteredTruth(filter_);
+    const auto diagnosis = lit_.diagnose(method);
+    for (size_t i = 0; i < diagnosis.size(); ++i)
+      if (receivers.states[i] == PixelState::Scored && verdictOf(diagnosis[i]) == Verdict::NotAsked)
+        edgeOn_.push_back(i);
+  }
+  std::vector<float> visibility = lit_.visibility(method, filter_);
+  for (const size_t pixel : edgeOn_) visibility[pixel] = filteredTruth_[pixel];
+  return scoredRmse(receivers, visibility, filteredTruth_);
+}
 
 size_t TuningEvaluator::biasErrors(const Method& method) {
   ++evaluations_;
@@ -141,7 +162,7 @@ TunedMethod tune(TuningEvaluator& evaluator, const Method& start) {
   for (int round = 0; round < rounds; ++round)
     for (const Knob& knob : knobs)
       tuned.method = KnobSearch(evaluator, tuned.method, knob, evaluator.sceneScale()).best();
-  tuned.biasErrors = evaluator.biasErrors(tuned.method);
+  tuned.error = evaluator.error(tuned.method);
   tuned.evaluations = evaluator.evaluations() - before;
   return tuned;
 }

@@ -1,18 +1,27 @@
 #pragma once
-// Tuning: the parameter values of a bias with the least acne + leak for one picture, so that biases with parameters are
-// compared fairly. All evaluations share one map and one ground truth. Labels are cached: a pixel that is wrong in the
-// same way, by the same texel, has the same label whatever the parameters.
+// Tuning: the parameter values of a bias with the least error for one picture, so that biases with parameters are
+// compared fairly: the least acne + leak, or through a filter the least RMSE. All evaluations share one map and one
+// ground truth. Labels are cached: a pixel that is wrong in the same way, by the same texel, has the same label
+// whatever the parameters.
 
 #include "judge/light_on_map.h"
 
 namespace gnomon {
 
-// Counts the pixels a bias is answerable for (acne + leak), again and again.
+// Evaluates a method's error again and again.
 class TuningEvaluator {
  public:
-  explicit TuningEvaluator(LightOnMap& lit) : lit_(lit) {}
+  explicit TuningEvaluator(LightOnMap& lit, const ChosenFilter& filter = glsl::kShadowFilterNone)
+      : lit_(lit), filter_(filter) {}
 
+  bool isFiltered() const { return filter_.id != glsl::kShadowFilterNone; }
+  // What the search minimizes: biasErrors, or rmse where there is a filter.
+  double error(const Method& method);
+  // Unfiltered pixels that the bias is answerable for: acne + leak.
   size_t biasErrors(const Method& method);
+  // Against the ground truth through the same filter.
+  double rmse(const Method& method);
+
   double scored() const { return static_cast<double>(lit_.receivers().scored); }
   float sceneScale() const { return lit_.fitted().map.sceneScale; }  // metres
   int evaluations() const { return evaluations_; }
@@ -24,13 +33,16 @@ class TuningEvaluator {
   };
 
   LightOnMap& lit_;
+  const ChosenFilter filter_;
   std::vector<Known> wronglyShadowed_, wronglyLit_;  // one a pixel
+  std::vector<float> filteredTruth_;                 // when first needed
+  std::vector<size_t> edgeOn_;                       // LabelledResult::edgeOn, which is the same for all methods
   int evaluations_ = 0;
 };
 
 struct TunedMethod {
   Method method;
-  size_t biasErrors = 0;
+  double error = 0.0;  // TuningEvaluator::error
   int evaluations = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "lab/core/maps.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
 #include "planar/planar_map.h"
@@ -44,7 +45,7 @@ std::vector<const Parameterization*> parseMaps(const std::string& list) {
     const auto found =
         std::ranges::find_if(parameterizations(), [&](const Parameterization* p) { return p->name() == word; });
     if (found == parameterizations().end())
-      throw UsageError(fmt::format("--maps {}: no such map; choose from {}", word, names));
+      throw UsageError(fmt::format("--maps {}: no such map; {}", word, chooseFrom(word, names)));
     if (std::ranges::find(chosen, *found) == chosen.end()) chosen.push_back(*found);
   }
   if (chosen.empty()) throw UsageError(fmt::format("--maps is empty; choose from {}", names));

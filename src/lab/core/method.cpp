@@ -29,7 +29,7 @@ MapSetup mapSetupOf(const MapChoice& choice, const Parameterization& map) {
 
 Method methodFor(const SceneView& view, const KnobChoices& choices, const BiasMethod& bias) {
   Method method = atDefaults(bias, view);
-  method.params.epsilonAt = choices.epsilonAt;
+  for (const BiasChoice* choice : biasChoices()) method.params.*choice->member = choices.choices.*choice->member;
   for (const auto& [knob, value] : choices.knobs)
     if (hasKnob(bias, *knob)) valueOf(method.params, bias, *knob) = value;
   return method;

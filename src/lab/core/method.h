@@ -24,8 +24,8 @@ struct KnobValue {
 };
 
 struct KnobChoices {
-  int epsilonAt = glsl::kEpsilonAtOccluder;
-  std::vector<KnobValue> knobs;  // that differ from their defaults
+  glsl::BiasParams choices = defaultChoices();  // its knobs stand for nothing
+  std::vector<KnobValue> knobs;                 // that differ from their defaults
 };
 
 // A bias or a filter with its knobs as chosen, else at their defaults.

@@ -28,7 +28,8 @@ ResultsHead resultsHead(const Session& session, const std::string& command, doub
   head.scene = {.name = session.scene().name,
                 .source = session.setup().scene,
                 .triangles = triangleCount(session.scene()),
-                .sceneScale = computeBounds(session.scene()).diagonal()};
+                .sceneScale = computeBounds(session.scene()).diagonal(),
+                .origin = glm::vec3(session.scene().originW)};  // a small multiple of a power of two: exact
   head.camera = {.name = session.camera().name,
                  .eye = view.eyeW,
                  .forward = view.forwardW,

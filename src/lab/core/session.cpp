@@ -8,8 +8,8 @@
 namespace gnomon {
 
 Session::Session(const gpu::DeviceOptions& device, const SetupOptions& options)
-    : Session(device, options, std::make_shared<const TracedScene>(openScene(options.scene)), parseSize(options.size)) {
-}
+    : Session(device, options, std::make_shared<const TracedScene>(openScene(options.scene, options.gltf)),
+              parseSize(options.size)) {}
 
 Session::Session(const gpu::DeviceOptions& device, const SetupOptions& options,
                  std::shared_ptr<const TracedScene> traced, const PictureSize& size)

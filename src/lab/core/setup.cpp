@@ -1,7 +1,9 @@
 #include "lab/core/setup.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "judge/ground_truth.h"
+#include "lab/core/default_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,80 +22,95 @@ std::string namesOf(const std::vector<T>& things) {
   return names.empty() ? "none" : names;
 }
 
-// Whether looking down on the scene one sees nothing but its top: a room with a roof, whose inside is meant.
-bool isRoofed(const Tracer& tracer, const Bounds& bounds) {
-  constexpr int kGrid = 7;
-  const glm::vec3 extent = bounds.upper - bounds.lower;
-  int covered = 0;
-  for (int i = 0; i < kGrid * kGrid; ++i) {
-    const double u = 0.2 + 0.6 * (i % kGrid) / (kGrid - 1);
-    const double v = 0.2 + 0.6 * (i / kGrid) / (kGrid - 1);
-    const glm::dvec3 origin(bounds.lower.x + u * extent.x, bounds.upper.y + extent.y + 1.0,
-                            bounds.lower.z + v * extent.z);
-    const std::optional<SurfaceHit> hit = tracer.firstHit({.origin = origin, .dir = {0, -1, 0}});
-    if (hit && origin.y - hit->distance > bounds.upper.y - 0.25 * extent.y) ++covered;
-  }
-  return covered > 9 * kGrid * kGrid / 10;
+// "it has a, b", or "did you mean a? It has a, b".
+template <typename T>
+std::string whatItHas(const std::string& wanted, const std::vector<T>& things) {
+  std::vector<std::string> names;
+  for (const T& thing : things) names.push_back(thing.name);
+  const std::string nearest = nearestName(wanted, names);
+  return nearest.empty() ? "it has " + namesOf(things)
+                         : fmt::format("did you mean {}? It has {}", nearest, namesOf(things));
 }
 
-// A little off the vertical through the centre, so that no symmetry of the scene hides an artefact.
-Light lightAboveCenter(const Tracer& tracer) {
-  const Bounds bounds = computeBounds(tracer.scene());
-  const glm::vec3 extent = bounds.upper - bounds.lower;
+// The scene's own light that suits the map, or the default one.
+Light lightFor(const Tracer& tracer, const Parameterization& map) {
+  const Light* first = firstLightFor(tracer.scene(), map);
+  return first != nullptr ? *first : defaultLight(tracer);
+}
+
+// The thing that `text` names: by its name, its number ("#2"), or the end of its node's path ("lamp" or "rig/lamp" of
+// "yard/rig/lamp"). Null where there is none. Throws WorldError where several paths end so.
+template <typename T>
+const T* findNamed(const std::vector<T>& things, const std::string& flag, const std::string& text) {
+  const auto named = std::ranges::find(things, text, &T::name);
+  if (named != things.end()) return &*named;
+  if (text.starts_with('#'))
+    if (const std::optional<double> number = parseNumber(text.substr(1)))
+      for (size_t i = 0; i < things.size(); ++i)
+        if (*number == static_cast<double>(i)) return &things[i];
+  std::vector<T> ending;
+  const T* found = nullptr;
+  for (const T& thing : things) {
+    if (thing.path != text && !thing.path.ends_with("/" + text)) continue;
+    ending.push_back(thing);
+    found = &thing;
+  }
+  if (ending.size() > 1)
+    throw WorldError(fmt::format("{} {}: several are called so; write one of {}", flag, text, namesOf(ending)));
+  return found;
+}
+
+// A light of no file. It has the power of the scene's first lamp, or one that suits the distance to the scene's centre.
+Light lightAt(const Scene& scene, const glm::vec3& positionW, const std::string& name) {
   Light light;
-  light.name = "above the centre";
-  light.positionW = bounds.center() + glm::vec3(0.07f, 0.0f, 0.05f) * bounds.diagonal();
-  light.positionW.y =
-      isRoofed(tracer, bounds) ? bounds.center().y + 0.3f * extent.y : bounds.upper.y + 0.5f * bounds.diagonal();
-  const float distance = light.positionW.y - bounds.lower.y;
+  light.name = name;
+  light.positionW = positionW;
+  const auto lamp = std::ranges::find_if(scene.lights, [](const Light& l) { return l.type != LightType::Directional; });
+  if (lamp != scene.lights.end()) {
+    light.color = lamp->color;
+    light.intensity = lamp->intensity;
+    return light;
+  }
+  const Bounds bounds = computeBounds(scene);
+  const float distance = std::max(glm::distance(positionW, bounds.center()), 1e-4f * bounds.diagonal());
   light.intensity = 10.0f * distance * distance;
   return light;
-}
-
-Camera cameraThatSees(const Tracer& tracer) {
-  const Bounds bounds = computeBounds(tracer.scene());
-  const glm::vec3 extent = bounds.upper - bounds.lower;
-  if (isRoofed(tracer, bounds)) {
-    const glm::vec3 eye = bounds.center() + extent * glm::vec3(0.4f, 0.15f, 0.4f);
-    return lookAt("from a corner", eye, bounds.center() - extent * glm::vec3(0.1f, 0.15f, 0.1f), 1.2f);
-  }
-  constexpr float kFov = 0.7854f;  // 45 degrees
-  const float distance = 0.5f * bounds.diagonal() / std::sin(0.5f * kFov);
-  const glm::vec3 eye = bounds.center() + glm::normalize(glm::vec3(0.55f, 0.5f, 0.8f)) * distance;
-  return lookAt("sees the scene", eye, bounds.center(), kFov);
-}
-
-Light defaultLight(const Tracer& tracer, const Parameterization& map) {
-  const Light* first = firstLightFor(tracer.scene(), map);
-  return first != nullptr ? *first : lightAboveCenter(tracer);
 }
 
 Light findLight(const Scene& scene, const std::string& text) {
-  const auto named = std::ranges::find(scene.lights, text, &Light::name);
-  if (named != scene.lights.end()) return *named;
-  const std::optional<glm::vec3> position = tryVec3(text);
+  if (const Light* named = findNamed(scene.lights, "--light", text)) return *named;
+  const auto placed = [&](const glm::dvec3& position) { return glm::vec3(position - scene.originW); };
+  const size_t at = text.rfind('@');
+  if (at != std::string::npos) {
+    const std::optional<glm::dvec3> position = tryVec3(text.substr(at + 1));
+    const Light* named = findNamed(scene.lights, "--light", text.substr(0, at));
+    if (position && named && named->type != LightType::Directional) {
+      checkPlace("--light", *position);
+      Light moved = *named;
+      moved.name = text;
+      moved.positionW = placed(*position);
+      return moved;
+    }
+  }
+  const std::optional<glm::dvec3> position = tryVec3(text);
   if (!position)
-    throw WorldError(fmt::format("--light {}: the scene has no light of this name; it has {}; or write x,y,z", text,
-                                 namesOf(scene.lights)));
-  Light light;
-  light.name = text;
-  light.positionW = *position;
-  const float distance = std::max(glm::distance(*position, computeBounds(scene).center()), 1e-3f);
-  light.intensity = 10.0f * distance * distance;
-  return light;
+    throw WorldError(fmt::format("--light {}: the scene has no light of this name; {}; or write x,y,z", text,
+                                 whatItHas(text, scene.lights)));
+  checkPlace("--light", *position);
+  return lightAt(scene, placed(*position), text);
 }
 
 // eye:x,y,z,target:x,y,z[,fov:deg]
-Camera parseCamera(const std::string& text) {
-  std::optional<glm::vec3> eye, target;
+Camera parseCamera(const Scene& scene, const std::string& text) {
+  std::optional<glm::dvec3> eye, target;
   double fov = 60.0;
   std::string key, value;
   const auto take = [&] {
     if (key.empty()) return;
     if (key == "eye")
-      eye = parseVec3("--camera eye", value);
+      eye = parsePlace("--camera eye", value);
     else if (key == "target")
-      target = parseVec3("--camera target", value);
+      target = parsePlace("--camera target", value);
     else if (key == "fov" && parseNumber(value))
       fov = *parseNumber(value);
     else
@@ -117,7 +134,37 @@ Camera parseCamera(const std::string& text) {
         "--camera {}: needs an eye and a target that differ; write eye:x,y,z,target:x,y,z[,fov:degrees]", text));
   if (!(fov >= 1.0 && fov <= 170.0))
     throw UsageError(fmt::format("--camera {}: fov {} is outside 1..170 degrees", text, fov));
-  return lookAt("from the command line", *eye, *target, static_cast<float>(glm::radians(fov)));
+  Camera camera = lookAt("from the command line", glm::vec3(*eye - scene.originW), glm::vec3(*target - scene.originW),
+                         static_cast<float>(glm::radians(fov)));
+  camera.zNear = defaultNearPlane(computeBounds(scene));
+  return camera;
+}
+
+// The light, with what --direction, --cone and --intensity change. Throws where the map does not support it.
+Light asAsked(Light light, const SetupOptions& options, const Parameterization& map) {
+  if (options.intensity) {
+    if (!(*options.intensity > 0.0 && *options.intensity <= 1e12))
+      throw UsageError(
+          fmt::format("--intensity {}: give candela (or lux), more than 0 and at most 1e12", *options.intensity));
+    light.intensity = static_cast<float>(*options.intensity);
+  }
+  if (!options.direction.empty()) {
+    const glm::vec3 direction = parseVec3("--direction", options.direction);
+    if (direction == glm::vec3(0.0f)) throw UsageError("--direction 0,0,0 has no direction; write x,y,z");
+    light.directionW = glm::vec3(glm::normalize(glm::dvec3(direction)));  // of any length
+    if (light.type == LightType::Point) light.type = LightType::Spot;
+  }
+  if (options.coneDegrees) {
+    if (!(*options.coneDegrees >= 1.0 && *options.coneDegrees <= 170.0))
+      throw UsageError(fmt::format("--cone {}: a spot's full angle is 1..170 degrees", *options.coneDegrees));
+    light.outerConeRad = static_cast<float>(glm::radians(0.5 * *options.coneDegrees));
+  }
+  if (map.supportsLight(light.type) == LightSupport::No)
+    throw WorldError(
+        fmt::format("--light {}: a directional light has no position, which a {} map needs; use --maps directional, "
+                    "another light, or x,y,z",
+                    light.name, map.name()));
+  return light;
 }
 
 }  // namespace
@@ -132,6 +179,7 @@ std::vector<std::string> setupWords(const SetupOptions& options) {
   add("--camera", options.camera, defaults.camera);
   add("--direction", options.direction, defaults.direction);
   if (options.coneDegrees) add("--cone", fmt::format("{}", *options.coneDegrees), "");
+  if (options.intensity) add("--intensity", fmt::format("{}", *options.intensity), "");
   add("--size", options.size, defaults.size);
   return words;
 }
@@ -153,25 +201,8 @@ PictureSize parseSize(const std::string& text) {
 }
 
 Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {
-  const Scene& scene = tracer.scene();
-  Light light = options.light.empty() ? defaultLight(tracer, map) : findLight(scene, options.light);
-  if (!options.direction.empty()) {
-    const glm::vec3 direction = parseVec3("--direction", options.direction);
-    if (glm::length(direction) == 0.0f) throw UsageError("--direction 0,0,0 has no direction; write x,y,z");
-    light.directionW = glm::normalize(direction);
-    if (light.type == LightType::Point) light.type = LightType::Spot;
-  }
-  if (options.coneDegrees) {
-    if (!(*options.coneDegrees >= 1.0 && *options.coneDegrees <= 170.0))
-      throw UsageError(fmt::format("--cone {}: a spot's full angle is 1..170 degrees", *options.coneDegrees));
-    light.outerConeRad = static_cast<float>(glm::radians(0.5 * *options.coneDegrees));
-  }
-  if (map.supportsLight(light.type) == LightSupport::No)
-    throw WorldError(
-        fmt::format("--light {}: a directional light has no position, which a {} map needs; use --maps directional, "
-                    "another light, or x,y,z",
-                    light.name, map.name()));
-  return light;
+  const Light light = options.light.empty() ? lightFor(tracer, map) : findLight(tracer.scene(), options.light);
+  return asAsked(light, options, map);
 }
 
 std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& tracer, const Parameterization& map) {
@@ -181,9 +212,7 @@ std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& trace
     if (!lights.empty()) break;
     for (const Light& light : tracer.scene().lights) {
       if (map.supportsLight(light.type) != wanted) continue;
-      SetupOptions one = options;
-      one.light = light.name;
-      lights.push_back(chooseLight(one, tracer, map));
+      lights.push_back(asAsked(light, options, map));
     }
   }
   if (lights.empty())
@@ -192,16 +221,26 @@ std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& trace
   return lights;
 }
 
+std::vector<Light> lightsAsked(const SetupOptions& options, const Tracer& tracer) {
+  if (options.light.empty() || options.light == "all") return tracer.scene().lights;
+  return {findLight(tracer.scene(), options.light)};
+}
+
 Camera chooseCamera(const SetupOptions& options, const Tracer& tracer) {
   const Scene& scene = tracer.scene();
-  if (options.camera.empty()) return scene.cameras.empty() ? cameraThatSees(tracer) : scene.cameras.front();
-  const auto named = std::ranges::find(scene.cameras, options.camera, &Camera::name);
-  if (named != scene.cameras.end()) return *named;
-  if (options.camera.find(':') != std::string::npos) return parseCamera(options.camera);
+  if (options.camera.empty()) {
+    if (!scene.cameras.empty()) return scene.cameras.front();
+    const bool named = !options.light.empty() && options.light != "all";
+    return defaultCamera(tracer, named                  ? findLight(scene, options.light)
+                                 : scene.lights.empty() ? defaultLight(tracer)
+                                                        : scene.lights.front());
+  }
+  if (const Camera* named = findNamed(scene.cameras, "--camera", options.camera)) return *named;
+  if (options.camera.find(':') != std::string::npos) return parseCamera(scene, options.camera);
   throw WorldError(
-      fmt::format("--camera {}: the scene has no camera of this name; it has {}; or write "
+      fmt::format("--camera {}: the scene has no camera of this name; {}; or write "
                   "eye:x,y,z,target:x,y,z[,fov:degrees]",
-                  options.camera, namesOf(scene.cameras)));
+                  options.camera, whatItHas(options.camera, scene.cameras)));
 }
 
 }  // namespace gnomon

@@ -48,6 +48,7 @@ struct FogResult {
   std::vector<EqualTerms> equalTerms;  // of the volume's ways against the march
   std::optional<WorstPlace> worst;     // where the first row errs most
   Pictures pictures;                   // of the reference
+  FileSums files;                      // of the folder, when all are written
   std::string motionNote;              // of --frames: where the video is, or why there is none
   double gbufferMs = 0.0;
 };

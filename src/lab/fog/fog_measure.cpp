@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -79,10 +78,8 @@ double relativeRmse(const ImageF& measured, const ImageF& reference, double shar
   const auto kept = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(squares.size())));
   if (kept < std::ssize(squares)) std::ranges::nth_element(squares, squares.begin() + kept);
   const double sum = std::accumulate(squares.begin(), squares.begin() + kept, 0.0);
-  if (sum == 0.0) return 0.0;
   const double mean = meanValue(reference);
-  if (!(mean > 0.0)) return std::numeric_limits<double>::infinity();
-  return std::sqrt(sum / (3.0 * static_cast<double>(kept))) / mean;
+  return std::sqrt(sum / (3.0 * static_cast<double>(kept))) / (mean > 0.0 ? mean : 1.0);
 }
 
 double changeBeyond(const ImageF& measured, const ImageF& measuredNext, const ImageF& reference,

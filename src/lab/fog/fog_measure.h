@@ -10,8 +10,8 @@
 
 namespace gnomon {
 
-// The root of the mean square difference, over the reference's mean. 0 where both are black; infinity where
-// only the reference is.
+// The root of the mean square difference, over the reference's mean. Of a black reference, which has none, the root
+// itself.
 // `share`: of the pixels, those that err least.
 double relativeRmse(const ImageF& measured, const ImageF& reference, double share = 1.0);
 

@@ -109,7 +109,7 @@ FogMotion parseMotion(const std::string& text, int frames) {
   if (frames < 2 || frames > kMostFrames)
     throw UsageError(fmt::format("--frames {}: give 2..{} frames", frames, kMostFrames));
   FogMotion motion{
-      .frames = frames, .camera = what == "camera", .offsetW = parseVec3("--move", text.substr(colon + 1))};
+      .frames = frames, .camera = what == "camera", .offsetW = glm::vec3(parsePlace("--move", text.substr(colon + 1)))};
   if (motion.offsetW == glm::vec3(0.0f))
     throw UsageError(fmt::format("--move {}: the offset is zero; write it in metres", text));
   return motion;

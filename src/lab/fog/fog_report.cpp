@@ -36,6 +36,7 @@ std::string referenceText(const FogResult& result) {
       "mean {:.4g} cd/m^2; the last doubling of samples changed no pixel by more than {:.2g} of it (tolerance "
       "{:.2g}; {:.0f} rays a pixel, at most {} doublings",
       reference.mean, reference.worstChange, reference.bound, perPixel, reference.doublings);
+  if (!(reference.mean > 0.0)) text += "; it is black: errors are absolute, cd/m^2";
   if (reference.atLimit > 0) text += fmt::format("; {} pixels reached that limit", reference.atLimit);
   return text +
          fmt::format("; {}{:.1f} s)", result.referenceFromCache ? "cached, from a run of " : "", reference.ms / 1000.0);
@@ -135,6 +136,7 @@ std::string fogJson(const Session& session, const FogOptions& options, const Fog
                     const std::string& command) {
   MediaResults file;
   static_cast<ResultsHead&>(file) = resultsHead(session, command, result.gbufferMs);
+  file.files = result.files;
   for (size_t i = 0; i < result.view.lights.size(); ++i)
     file.lights.push_back(lightFacts(result.view.lights[i], result.view.sources[i]));
   file.medium = mediumFacts(result.view);

@@ -179,7 +179,8 @@
     box.append(button);
   }
 
-  makeSortable(document.getElementById("ranking"));
+  for (const id of ["ranking", "equal"])
+    if (document.getElementById(id)) makeSortable(document.getElementById(id));
   document.querySelectorAll(".command").forEach(addCopyButton);
   document.querySelectorAll("details.row").forEach((row) => {
     row.addEventListener("toggle", () => { if (row.open) fillRow(row); });

@@ -2,9 +2,11 @@
 
 #include "base/check.h"
 #include "lab/page/media_page.h"
+#include "lab/page/report_equal_error.h"
 #include "lab/page/report_page.h"
 #include "lab/page/report_rows.h"
 #include "lab/page/report_text.h"
+#include "lab/results/result_folder.h"
 #include "lab/results/results_file.h"
 
 #include <algorithm>
@@ -79,6 +81,20 @@ void setHead(TemplateData& page, const Comparison& data) {
   page.set("truths", truthViews(data));
   page.set("hasRows", !data.rows.empty());
   page.set("hasFilters", std::ranges::any_of(data.rows, [](const Row& row) { return row.filter != "none"; }));
+}
+
+const char* errorName(Ranking ranking) {
+  return ranking == Ranking::Rmse ? "RMSE" : "bias error";
+}
+
+std::string rankingText(const Comparison& data, const Row& row) {
+  const Ranking ranking = rankingOf(data.rows);
+  const double error = rankingError(ranking, row);
+  return ranking == Ranking::Rmse ? fmt::format("{:.4f}", error) : percent(error);
+}
+
+const char* untunedText(const Row& row) {
+  return row.isGiven ? "as given" : "at its default";
 }
 
 // What a row is held against: the truth through the row's own filter, else the truth.
@@ -160,8 +176,8 @@ TemplateData markView(const Comparison& data, size_t index, const PlotItem& item
   TemplateData view;
   view.set("id", rowId(index + 1));
   view.set("label", item.label);
-  view.set("title", fmt::format("{}: {} bias error, build and shade {:.2f} ms, frame {:.2f} ms", rowName(data, row),
-                                percent(item.error), item.costMs, row.frameMs));
+  view.set("title", fmt::format("{}: {} {}, build and shade {:.2f} ms, frame {:.2f} ms", rowName(data, row),
+                                errorName(rankingOf(data.rows)), rankingText(data, row), item.costMs, row.frameMs));
   view.set("shape", std::to_string(shape));
   view.set("x", coordinate(mark.x));
   view.set("y", coordinate(mark.y));
@@ -175,10 +191,14 @@ TemplateData markView(const Comparison& data, size_t index, const PlotItem& item
 
 TemplateData plotView(const Comparison& data, const char* size, double width, double height) {
   std::vector<PlotItem> items;
-  for (const Row& row : data.rows) items.push_back({methodName(data, row), row.buildMs + row.shadeMs, row.biasError()});
-  const Plot plot = layOutPlot(items, width, height);
+  const Ranking ranking = rankingOf(data.rows);
+  for (const Row& row : data.rows)
+    items.push_back({methodName(data, row), row.buildMs + row.shadeMs, rankingError(ranking, row)});
+  const Plot plot = layOutPlot(items, width, height, CostAxis::Linear,
+                               ranking == Ranking::Rmse ? ErrorText::Number : ErrorText::Percent);
   const std::vector<std::string> shapes = shapeNames(data);
   TemplateData view;
+  view.set("errorName", errorName(ranking));
   setPlotFrame(view, plot, size);
   setFrameTicks(view, plot, data.gbufferMs);
   TemplateData front;
@@ -193,30 +213,56 @@ TemplateData plotView(const Comparison& data, const char* size, double width, do
   return view;
 }
 
+// The best row that nobody tuned, and the best of those that were.
+void setBest(TemplateData& page, const Comparison& data, const BestRows& best) {
+  if (best.untuned == nullptr) {
+    page.set("best", false);
+    return;
+  }
+  const auto idOfRow = [&](const Row& row) { return rowId(static_cast<size_t>(&row - data.rows.data()) + 1); };
+  TemplateData view;
+  view.set("id", idOfRow(*best.untuned));
+  view.set("name", rowName(data, *best.untuned));
+  view.set("where", untunedText(*best.untuned));
+  view.set("errorName", errorName(rankingOf(data.rows)));
+  view.set("error", rankingText(data, *best.untuned));
+  view.set("allWrong", percent(best.untuned->allWrong()));
+  view.set("cost", shortNumber(best.untuned->frameMs));
+  view.set("tuned", best.tuned != nullptr);
+  if (best.tuned != nullptr) {
+    view.set("tunedId", idOfRow(*best.tuned));
+    view.set("tunedName", rowName(data, *best.tuned));
+    view.set("tunedError", rankingText(data, *best.tuned));
+    view.set("tunedAllWrong", percent(best.tuned->allWrong()));
+  }
+  page.set("best", view);
+}
+
+std::string crownOf(const BestRows& best, const Row& row) {
+  if (best.untuned == &row) return std::string("best ") + untunedText(row);
+  return best.tuned == &row ? "best tuned" : "";
+}
+
 void setRows(TemplateData& page, const Comparison& data, ReportPictureShelf& shelf) {
   const double scale = barScale(data.rows);
   const PageColumns<Row> columns(data.rows);
+  const BestRows best = bestOf(data.rows);
   page.set("columns", columns.heads());
+  page.set("byRmse", rankingOf(data.rows) == Ranking::Rmse);
   TemplateData rows = viewList();
   bool cut = false;
   for (size_t i = 0; i < data.rows.size(); ++i) {
     const Row& row = data.rows[i];
     const ExactPictures exact = exactPictures(data, row, shelf);
-    rows.push_back(rowView(row, i + 1, {.data = data, .columns = columns, .barScale = scale, .exact = exact}, shelf));
+    const RowContext context{
+        .data = data, .columns = columns, .barScale = scale, .crown = crownOf(best, row), .exact = exact};
+    rows.push_back(rowView(row, i + 1, context, shelf));
     cut = cut || isCut(row, scale);
   }
   page.set("rows", rows);
   page.set("barScale", percent(scale));
   page.set("barsCut", cut);
-  if (data.rows.empty()) {
-    page.set("best", false);
-    return;
-  }
-  TemplateData best;
-  best.set("id", rowId(1));
-  best.set("name", rowName(data, data.rows.front()));
-  best.set("biasError", percent(data.rows.front().biasError()));
-  page.set("best", best);
+  setBest(page, data, best);
 }
 
 // Best first. A light that is alone needs no name.
@@ -244,6 +290,7 @@ std::string comparisonHtml(const std::filesystem::path& folder, const Comparison
   plots.push_back(plotView(data, "wide", 980.0, 440.0));
   plots.push_back(plotView(data, "narrow", 368.0, 400.0));
   page.set("plots", plots);
+  page.set("equalError", data.equalError ? equalErrorView(*data.equalError) : TemplateData(false));
   setMissing(page, shelf);
 
   kainjow::mustache::mustache pageTemplate{std::string(kPageHtml)};
@@ -255,6 +302,7 @@ std::string comparisonHtml(const std::filesystem::path& folder, const Comparison
 
 std::string reportHtml(const std::filesystem::path& folder) {
   const Results results = readResults(folder);
+  std::visit([&](const auto& kind) { checkFiles(folder, kind.files); }, results);
   if (const auto* media = std::get_if<MediaResults>(&results)) return mediaHtml(folder, *media);
   return comparisonHtml(folder, forPage(std::get<Comparison>(results)));
 }

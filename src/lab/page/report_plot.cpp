@@ -27,18 +27,7 @@ struct Box {
   bool meets(const Box& b) const { return x0 < b.x1 && b.x0 < x1 && y0 < b.y1 && b.y0 < y1; }
 };
 
-struct ErrorAxis {
-  double top = 0.0, bottom = 0.0;  // y of the two decades
-  int highest = 0, lowest = -1;    // their exponents
-  double zeroAt = 0.0;
-  double yOf(double error) const {
-    if (error <= 0.0) return zeroAt;
-    return bottom + (std::log10(error) - lowest) / (highest - lowest) * (top - bottom);
-  }
-};
-
-ErrorAxis errorAxis(const std::vector<PlotItem>& items, const Plot& plot) {
-  ErrorAxis axis;
+void fitErrorAxis(const std::vector<PlotItem>& items, Plot& plot) {
   std::optional<double> least, most;
   for (const PlotItem& item : items) {
     if (item.error <= 0.0) continue;
@@ -46,23 +35,22 @@ ErrorAxis errorAxis(const std::vector<PlotItem>& items, const Plot& plot) {
     most = std::max(most.value_or(item.error), item.error);
   }
   if (least) {
-    axis.lowest = static_cast<int>(std::floor(std::log10(*least)));
-    axis.highest = std::max(axis.lowest + 1, static_cast<int>(std::ceil(std::log10(*most))));
+    plot.lowestDecade = static_cast<int>(std::floor(std::log10(*least)));
+    plot.highestDecade = std::max(plot.lowestDecade + 1, static_cast<int>(std::ceil(std::log10(*most))));
   } else {
-    axis.lowest = -4;
-    axis.highest = -2;
+    plot.lowestDecade = -4;
+    plot.highestDecade = -2;
   }
-  axis.top = plot.top;
-  axis.bottom = plot.hasZero ? plot.bottom - kZeroStrip : plot.bottom;
-  axis.zeroAt = plot.bottom - 12.0;
-  return axis;
+  plot.errorBottom = plot.hasZero ? plot.bottom - kZeroStrip : plot.bottom;
+  plot.zeroAt = plot.bottom - 12.0;
 }
 
-std::vector<PlotTick> errorTicks(const ErrorAxis& axis) {
+std::vector<PlotTick> errorTicks(const Plot& plot, ErrorText errorText) {
   std::vector<PlotTick> ticks;
-  for (int exponent = axis.lowest; exponent <= axis.highest; ++exponent) {
+  for (int exponent = plot.lowestDecade; exponent <= plot.highestDecade; ++exponent) {
     const double error = std::pow(10.0, exponent);
-    ticks.push_back({axis.yOf(error), fmt::format("{:g} %", 100.0 * error)});
+    ticks.push_back({plot.yOfError(error), errorText == ErrorText::Percent ? fmt::format("{:g} %", 100.0 * error)
+                                                                           : fmt::format("{:g}", error)});
   }
   return ticks;
 }
@@ -173,7 +161,13 @@ double Plot::xOfCost(double costMs) const {
   return left + share * (right - left);
 }
 
-Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height, CostAxis costAxis) {
+double Plot::yOfError(double error) const {
+  if (error <= 0.0) return zeroAt;
+  return errorBottom + (std::log10(error) - lowestDecade) / (highestDecade - lowestDecade) * (top - errorBottom);
+}
+
+Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height, CostAxis costAxis,
+                ErrorText errorText) {
   Plot plot{.width = width,
             .height = height,
             .left = 62.0,
@@ -187,10 +181,10 @@ Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height,
   for (const double ms : costAxis == CostAxis::Logarithmic ? decadeSteps(plot.costFrom, plot.costTo, narrow ? 5 : 10)
                                                            : roundSteps(plot.costFrom, plot.costTo, narrow ? 4 : 7))
     plot.costTicks.push_back({plot.xOfCost(ms), fmt::format("{:g}", ms)});
-  const ErrorAxis axis = errorAxis(items, plot);
-  plot.errorTicks = errorTicks(axis);
-  plot.zeroAt = axis.zeroAt;
-  for (const PlotItem& item : items) plot.marks.push_back({.x = plot.xOfCost(item.costMs), .y = axis.yOf(item.error)});
+  fitErrorAxis(items, plot);
+  plot.errorTicks = errorTicks(plot, errorText);
+  for (const PlotItem& item : items)
+    plot.marks.push_back({.x = plot.xOfCost(item.costMs), .y = plot.yOfError(item.error)});
   const std::vector<size_t> front = findFront(items);
   for (const size_t i : front) {
     PlotMark& mark = plot.marks[i];

@@ -34,6 +34,7 @@ struct PlotTick {
 };
 
 enum class CostAxis { Linear, Logarithmic };
+enum class ErrorText { Percent, Number };
 
 struct Plot {
   double width = 0.0, height = 0.0;
@@ -44,12 +45,16 @@ struct Plot {
   std::vector<PlotMark> marks;  // as the items
   std::string frontPath;        // SVG path through the front, cheapest first; empty for fewer than two
   double xOfCost(double costMs) const;
-  double costFrom = 0.0, costTo = 1.0;  // ms at the frame's sides
+  double yOfError(double error) const;
+  double errorBottom = 0.0;                  // y of the lowest decade; of the highest it is `top`
+  int lowestDecade = -1, highestDecade = 0;  // of the error, powers of ten
+  double costFrom = 0.0, costTo = 1.0;       // ms at the frame's sides
   CostAxis costAxis = CostAxis::Linear;
 };
 
 // On a logarithmic axis every cost is more than 0.
-Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height, CostAxis costAxis = CostAxis::Linear);
+Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height, CostAxis costAxis = CostAxis::Linear,
+                ErrorText errorText = ErrorText::Percent);
 
 // Round steps of 1, 2 or 5 times a power of ten: about `count` numbers within [from, to].
 std::vector<double> roundSteps(double from, double to, int count);

@@ -101,17 +101,43 @@ TemplateData countsView(const Row& row) {
   return list;
 }
 
+// What the search minimized.
+std::string minimized(double biasError, const std::optional<double>& rmse) {
+  return rmse ? fmt::format("{:.4f}", *rmse) : percent(biasError);
+}
+
 TemplateData transferView(const std::string& where, const Transfer& transfer, const std::string& unit) {
   TemplateData view;
   view.set("where", where);
-  view.set("here", percent(transfer.biasError));
-  view.set("best", percent(transfer.bestBiasError));
+  view.set("here", minimized(transfer.biasError, transfer.rmse));
+  view.set("best", minimized(transfer.bestBiasError, transfer.bestRmse));
   view.set("bestValue", withUnit(shortNumber(shortest(transfer.bestValue)), unit));
   return view;
 }
 
-TemplateData tuningView(const Tuning& tuning) {
+TemplateData errorView(const std::string& where, const ErrorElsewhere& there) {
   TemplateData view;
+  view.set("where", where);
+  view.set("biasError", percent(there.biasError));
+  view.set("allWrong", percent(there.allWrong));
+  view.set("rmse", there.rmse ? fmt::format("{:.4f}", *there.rmse) : "–");
+  return view;
+}
+
+TemplateData recommendedView(const Elsewhere& elsewhere) {
+  TemplateData list = viewList();
+  if (const auto& there = elsewhere.otherCamera)
+    list.push_back(errorView(fmt::format("camera {}", there->camera), *there));
+  if (const auto& there = elsewhere.otherMapSize)
+    list.push_back(errorView(fmt::format("map of {0} × {0} texels", there->mapSize), *there));
+  TemplateData view;
+  view.set("places", list);
+  return view;
+}
+
+TemplateData tuningView(const Row& row, const Tuning& tuning) {
+  TemplateData view;
+  view.set("least", row.isFiltered() ? "the least RMSE" : "the fewest acne and leak pixels");
   view.set("knob", tuning.knob);
   view.set("value", withUnit(shortNumber(shortest(tuning.value)), tuning.unit));
   view.set("evaluations", grouped(static_cast<uint64_t>(tuning.evaluations)));
@@ -157,9 +183,12 @@ TemplateData rowView(const Row& row, size_t rank, const RowContext& context, Rep
   view.set("filter", row.filter);
   view.set("filtered", row.filter != "none");
   view.set("tuned", row.isTuned());
+  view.set("crown", context.crown.empty() ? TemplateData(false) : TemplateData(context.crown));
   view.set("knobs", knobsText(row));
   view.set("biasError", percent(row.biasError()));
   view.set("rawBiasError", rawNumber(row.biasError()));
+  view.set("allWrong", percent(row.allWrong()));
+  view.set("rawAllWrong", rawNumber(row.allWrong()));
   view.set("cells", context.columns.cells(row));
   setBar(view, row, context.barScale);
   TemplateData pictures = pictureViews(row.pictures, shelf);
@@ -170,7 +199,8 @@ TemplateData rowView(const Row& row, size_t rank, const RowContext& context, Rep
   view.set("places", placesView(row));
   view.set("params", configurationView(row));
   view.set("counts", countsView(row));
-  view.set("tuning", row.tuning ? tuningView(*row.tuning) : TemplateData(false));
+  view.set("tuning", row.tuning ? tuningView(row, *row.tuning) : TemplateData(false));
+  view.set("recommended", row.elsewhere ? recommendedView(*row.elsewhere) : TemplateData(false));
   view.set("rowCommand", row.command.empty() ? TemplateData(false) : TemplateData(row.command));
   return view;
 }

@@ -14,6 +14,7 @@ struct RowContext {
   const Comparison& data;
   const PageColumns<Row>& columns;
   double barScale = 1.0;  // fraction of scored pixels that fills a bar
+  std::string crown;      // "best tuned" and the like
   const ExactPictures& exact;
 };
 // The `rank`th row (from 1).

@@ -61,6 +61,7 @@ TemplateData columnHead(const FieldNotes& notes) {
 
 TemplateData columnCell(const FieldNotes& notes, const std::optional<double>& value) {
   TemplateData view;
+  view.set("title", notes.title);
   view.set("text", cellText(notes, value));
   view.set("raw", value ? rawNumber(*value) : "");
   view.set("strong", notes.ranks);

@@ -1,6 +1,7 @@
 #include "lab/paper/reproduce.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "lab/compare/results.h"
 #include "lab/paper/paper_run.h"
 #include "scene/generate.h"
@@ -9,6 +10,7 @@
 #include <chrono>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace gnomon {
@@ -46,7 +48,8 @@ const std::vector<std::string>& reproduciblePapers() {
 
 Reproduction reproduce(const gpu::DeviceOptions& device, const ReproduceOptions& options) {
   if (std::ranges::find(reproduciblePapers(), options.paper) == reproduciblePapers().end())
-    throw UsageError(fmt::format("reproduce {}: no such paper; choose from weiskopf2003, dou2014", options.paper));
+    throw UsageError(fmt::format("reproduce {}: no such paper; {}", options.paper,
+                                 chooseFrom(options.paper, fmt::format("{}", fmt::join(reproduciblePapers(), ", ")))));
   if (!(options.scale >= kLeastScale && options.scale <= 1.0))
     throw UsageError(fmt::format("--scale {:g} is outside {:g}..1", options.scale, kLeastScale));
   // A user's scene is refused here; later on, what it lacks leaves out a figure.
@@ -55,6 +58,7 @@ Reproduction reproduce(const gpu::DeviceOptions& device, const ReproduceOptions&
   Reproduction result =
       options.paper == "dou2014" ? reproduceDou2014(device, options) : reproduceWeiskopf2003(device, options);
   if (result.figures.empty() && !result.leftOut.empty()) throw WorldError(result.leftOut.front().why);
+  result.scale = options.scale;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
@@ -70,6 +74,10 @@ std::string reproductionText(const Reproduction& reproduction) {
   for (const JudgedClaim& judged : reproduction.claims) ++counts[static_cast<size_t>(judged.verdict)];
   text += fmt::format("{}: {} claims; {} hold, {} hold in part, {} do not hold here", reproduction.paper,
                       reproduction.claims.size(), counts[0], counts[1], counts[2]);
+  if (reproduction.scale != 1.0)
+    text = fmt::format("at scale {:g}: the verdicts are meant for scale 1, whose pictures and maps are the papers'\n",
+                       reproduction.scale) +
+           text;
   if (counts[3] > 0) text += fmt::format(", {} were not run", counts[3]);
   return text + fmt::format("; {:.0f} s\n", reproduction.seconds);
 }
@@ -99,7 +107,7 @@ std::string reproductionJson(const Reproduction& reproduction, const ReproduceOp
   for (const auto& [name, results] : reproduction.comparisons)
     json["comparisons"].push_back({{"folder", name}, {"results", Json::parse(results)}});
   json["total_ms"] = 1000.0 * reproduction.seconds;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gnomon

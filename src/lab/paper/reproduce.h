@@ -62,6 +62,7 @@ struct Reproduction {
   std::vector<LeftOut> leftOut;
   Numbers numbers;
   std::vector<std::pair<std::string, std::string>> comparisons;  // name -> its results.json
+  double scale = 1.0;                                            // of ReproduceOptions
   double seconds = 0.0;                                          // wall clock of all of it
 };
 

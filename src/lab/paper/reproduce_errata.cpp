@@ -28,7 +28,9 @@ class Counter {
             .leak = judged.labels.count(Label::Leak)};
   }
   Counts count(const char* bias, int epsilonAt = glsl::kEpsilonAtOccluder) {
-    return count(methodFor(lit_.view(), {.epsilonAt = epsilonAt}, findBias(bias)));
+    KnobChoices choices;
+    choices.choices.epsilonAt = epsilonAt;
+    return count(methodFor(lit_.view(), choices, findBias(bias)));
   }
   Counts countPrinted(const char* name, const char* glsl) {
     const std::unique_ptr<const UserBias> bias = readUserBias(name, glsl);

@@ -151,6 +151,7 @@ std::string reproductionHtml(const Reproduction& reproduction, const ReproduceOp
   page.set("device", reproduction.device);
   page.set("scene", options.scene.empty() ? "generated, given with each figure" : options.scene);
   page.set("scale", fmt::format("{:g}", options.scale));
+  page.set("scaledDown", options.scale != 1.0);
   page.set("seconds", fmt::format("{:.0f}", reproduction.seconds));
   page.set("command", command);
   page.set("tally", tallyView(reproduction));

@@ -141,6 +141,25 @@ void drawRamp(Image8& image, int top, int scale, const Decades& decades) {
 
 }  // namespace
 
+Image8 idPicture(const ImageF& ids) {
+  Image8 picture(ids.width, ids.height, 3);
+  for (int y = 0; y < ids.height; ++y) {
+    for (int x = 0; x < ids.width; ++x) {
+      const auto instance = static_cast<uint32_t>(ids.at(x, y)[0]), triangle = static_cast<uint32_t>(ids.at(x, y)[1]);
+      glm::u8vec3 color = kNothing;
+      if (instance != 0) {
+        // Hues by the golden ratio: neighbours in number are far apart in colour. Shades by a hash.
+        const float turn = 6.2831853f * glm::fract(0.61803399f * static_cast<float>(instance));
+        const float shade = 0.35f + 0.6f * static_cast<float>(triangle * 2654435761u >> 16) / 65536.0f;
+        const glm::vec3 hue = 0.5f + 0.5f * glm::cos(turn + glm::vec3(0.0f, 2.0943951f, 4.1887902f));
+        color = glm::u8vec3(255.0f * shade * glm::mix(glm::vec3(1.0f), hue, 0.75f));
+      }
+      for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = color[c];
+    }
+  }
+  return picture;
+}
+
 Image8 densityPicture(const Receivers& receivers, std::span<const float> densities, const std::string& title) {
   const int scale = std::max(1, receivers.width / 500);
   const Decades decades = decadesOf(densities);

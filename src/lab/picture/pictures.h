@@ -28,6 +28,10 @@ std::vector<float> truthVisibility(const Receivers& receivers, const Truth& trut
 // Depth in metres, near bright and far dark; texels without a surface (infinity) dark blue.
 Image8 depthPicture(const ImageF& metres);
 
+// Numbers of instances and of their triangles (two channels, from 1; 0 none, dark blue): a hue for an instance, a shade
+// for a triangle.
+Image8 idPicture(const ImageF& ids);
+
 // Texels per square metre (judge/texel_density.h), on a logarithmic ramp from dark blue to yellow, readable without red
 // and green; not scored dark grey, uncovered reddish purple. A strip below has the scale and the median.
 Image8 densityPicture(const Receivers& receivers, std::span<const float> densities, const std::string& title);

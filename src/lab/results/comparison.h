@@ -1,6 +1,7 @@
 #pragma once
 // The results.json of gnomon compare, as a struct.
 
+#include "lab/results/equal_error.h"
 #include "lab/results/head.h"
 #include "lab/results/light_facts.h"
 #include "lab/results/media_row.h"
@@ -87,6 +88,7 @@ struct Comparison : ResultsHead {
   std::vector<TruthSummary> truths;
   std::vector<MapSummary> maps;
   std::vector<Row> rows;
+  std::optional<EqualError> equalError;
 
   TruthSummary firstTruth() const { return truths.empty() ? TruthSummary{} : truths.front(); }
   LightFacts firstLight() const { return firstTruth().light; }
@@ -101,6 +103,7 @@ struct Comparison : ResultsHead {
             field("truths", &Comparison::truths, {.says = "one per map and light; below"}),
             field("maps", &Comparison::maps, {.says = "one per map and light; below", .absent = Absent::Earlier}),
             field("rows", &Comparison::rows, {.says = "one per method, map, light and filter; below"}),
+            field("equal_error", &Comparison::equalError, {.says = "null without `--until-error`; below"}),
             field("media", &Comparison::noMedia, {.says = "empty (rows of `gnomon fog`)"})));
   }
 };

@@ -16,6 +16,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <vector>
@@ -42,10 +43,16 @@ enum class Absent {
 // Where a column is left out when it would be empty, or 0 in all rows.
 enum class Hides { Never, OnPage, Everywhere };
 
+// How readily the terminal's table leaves a column out: never; where the line would be too long, the higher the sooner;
+// or wherever not all columns are asked for.
+inline constexpr int kKept = 0;
+inline constexpr int kWideOnly = 9;
+
 struct TableColumn {
   const char* head = "";  // empty: no column
   int width = 0;
   int decimals = 0;
+  int leftOut = kKept;
 };
 
 // All but `says`, `absent` and `inFile` are for numbers.
@@ -134,9 +141,11 @@ std::string tableCell(const FieldNotes& notes, std::optional<double> value);
 template <Record R>
 class DeclaredColumns {
  public:
-  explicit DeclaredColumns(const std::vector<R>& rows) {
+  // Those that are left out less readily than `from`, and `kept` in any case.
+  explicit DeclaredColumns(const std::vector<R>& rows, int from = kWideOnly + 1, std::string_view kept = "") {
     for (NumberField<R>& field : numberFields<R>())
-      if (field.notes.table.width > 0 && (field.notes.hides != Hides::Everywhere || isInAny(field, rows)))
+      if (field.notes.table.width > 0 && (field.notes.table.leftOut < from || field.name == kept) &&
+          (field.notes.hides != Hides::Everywhere || isInAny(field, rows)))
         columns_.push_back(std::move(field));
   }
   std::string head() const {

@@ -23,13 +23,18 @@ struct SceneFacts {
   std::string name, source;
   size_t triangles = 0;
   float sceneScale = 0.0f;
+  glm::vec3 origin{0.0f};
 
   static constexpr auto fields() {
     return std::tuple(
         field("name", &SceneFacts::name, {.says = "name of the scene"}),
         field("source", &SceneFacts::source, {.says = "file or generator", .absent = Absent::Earlier}),
         field("triangles", &SceneFacts::triangles, {.says = "number of triangles"}),
-        field("sceneScale", &SceneFacts::sceneScale, {.unit = "metres", .says = "diagonal of the bounding box"}));
+        field("sceneScale", &SceneFacts::sceneScale, {.unit = "metres", .says = "diagonal of the bounding box"}),
+        field("origin", &SceneFacts::origin,
+              {.unit = "metres",
+               .says = "what the positions in this file are relative to, in the scene file's coordinates",
+               .absent = Absent::Earlier}));
   }
 };
 
@@ -57,6 +62,7 @@ struct ResultsHead {
   SceneFacts scene;
   CameraFacts camera;
   double gbufferMs = 0.0;
+  FileSums files;
 
   static constexpr auto fields() {
     return std::tuple(field("schema", &ResultsHead::schema, {.says = "version of this format"}),
@@ -64,7 +70,10 @@ struct ResultsHead {
                       field("scene", &ResultsHead::scene, {.says = "below"}),
                       field("camera", &ResultsHead::camera, {.says = "below"}),
                       field("gbuffer_ms", &ResultsHead::gbufferMs,
-                            {.unit = "ms", .says = "drawing the G-buffer; median of `--repeats`, wall clock"}));
+                            {.unit = "ms", .says = "drawing the G-buffer; median of `--repeats`, wall clock"}),
+                      field("files", &ResultsHead::files,
+                            {.says = "with `-o`: each file of the run, and its CRC-32; a report refuses others",
+                             .absent = Absent::Earlier}));
   }
 };
 

@@ -32,7 +32,8 @@ struct MediaRow {
         field("params", &MediaRow::params,
               {.says = "`map_size`, `lights`, `vsv_source`, `vsv_fit`, `cube_size`, `cull`"}),
         field("rel_rmse", &MediaRow::relRmse,
-              {.says = "of the in-scattered light alone: RMSE over pixels and channels / the reference's mean",
+              {.says = "of the in-scattered light alone: RMSE over pixels and channels / the reference's mean; of a "
+                       "black reference the RMSE itself, cd/m^2",
                .kind = NumberKind::Error,
                .title = "Error, all",
                .table = {"rel rmse", 9, 5},

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/message.h"
+#include "base/parse_json.h"
 #include "lab/results/json_field.h"
 
 #include <algorithm>
@@ -86,6 +88,11 @@ Json toJson(const std::vector<T>& items) {
   Json json = Json::array();
   for (const T& item : items) json.push_back(toJson(item));
   return json;
+}
+
+// Names of files need not be UTF-8: what is not becomes U+FFFD.
+std::string dumped(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 // Reading.
@@ -251,22 +258,24 @@ Results readAll(const JsonField& root, const fs::path& folder) {
 }  // namespace
 
 std::string resultsText(const Comparison& comparison) {
-  return toJson(comparison).dump(2) + "\n";
+  return dumped(toJson(comparison));
 }
 
 std::string resultsText(const MediaResults& media) {
-  return toJson(media).dump(2) + "\n";
+  return dumped(toJson(media));
 }
 
 Results readResults(const fs::path& folder) {
+  constexpr size_t kMostMembers = 4096;  // a row has fewer than a hundred
   const fs::path path = folder / "results.json";
   if (!fs::exists(path))
     throw fileError(path.string(), "does not exist", "name a folder that gnomon compare -o or gnomon fog -o wrote");
+  const std::string text = readFile(path, kMostResultsBytes);
   Json json;
   try {
-    json = Json::parse(readFile(path));
-  } catch (const Json::exception& error) {
-    throw fileError(path.string(), "is not JSON", error.what());
+    json = parseJson<Json>(text, {.members = kMostMembers});
+  } catch (const std::exception& error) {
+    throw fileError(path.string(), "is not JSON", oneLine(error.what(), 160));
   }
   return readAll(JsonField(json, path.string(), ""), folder);
 }

@@ -9,6 +9,9 @@
 
 namespace gnomon {
 
+// Of a results.json that is read; one of a hundred rows has half a megabyte.
+inline constexpr uint64_t kMostResultsBytes = 64 << 20;
+
 // The whole file as text.
 std::string resultsText(const Comparison& comparison);
 std::string resultsText(const MediaResults& media);

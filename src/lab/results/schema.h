@@ -22,6 +22,9 @@ using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 // Names and paths below the folder of results.json, in the order they are shown.
 using Pictures = NamedTexts;
 
+// Of files: "1b2c3d4e spot/none.labels.png", the CRC-32 of each and its path.
+using FileSums = std::vector<std::string>;
+
 // A picture's side is at most this, pixels.
 inline constexpr int kMaxPictureSide = 16384;
 

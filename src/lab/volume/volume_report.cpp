@@ -209,7 +209,7 @@ std::string volumeJson(const Session& session, const VolumeOptions& options, con
   json["pictures"] = Json::object();
   for (const auto& [name, path] : result.pictures) json["pictures"][name] = path;
   json["times"] = timesJson(result);
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gnomon

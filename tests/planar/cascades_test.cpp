@@ -2,10 +2,10 @@
 #include "planar/cascades.h"
 #include "base/error.h"
 #include "judge/texel_density.h"
-#include "map_fixture.h"
 #include "planar/convex_body.h"
 #include "planar/window.h"
-#include "seen_scene.h"
+#include "tests/shadow/map_fixture.h"
+#include "tests/shadow/seen_scene.h"
 
 #include <algorithm>
 #include <cmath>

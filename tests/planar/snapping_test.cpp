@@ -1,6 +1,6 @@
 // A snapped map holds still while the camera moves within a texel: the depth image itself, bit for bit.
-#include "map_fixture.h"
-#include "seen_scene.h"
+#include "tests/shadow/map_fixture.h"
+#include "tests/shadow/seen_scene.h"
 
 #include <algorithm>
 #include <set>

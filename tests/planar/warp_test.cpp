@@ -2,9 +2,9 @@
 // of light rays.
 #include "planar/warp.h"
 #include "judge/texel_density.h"
-#include "map_fixture.h"
 #include "planar/convex_body.h"
-#include "seen_scene.h"
+#include "tests/shadow/map_fixture.h"
+#include "tests/shadow/seen_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Windows that hold still, near planes that miss nothing.
-#include "map_fixture.h"
 #include "planar/window.h"
+#include "tests/shadow/map_fixture.h"
 
 #include <cmath>
 #include <set>

@@ -1,0 +1,190 @@
+#include "shadow/user_bias_check.h"
+
+#include "base/child.h"
+#include "base/error.h"
+#include "gpu/shader_compiler.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+// glslang takes a third of a second and 30 MiB for the sample.
+constexpr ChildLimits kCompilerLimits{.bytes = 1 << 30, .seconds = 20};
+// lavapipe's compiler takes 3 s for an array of 2,000 floats, 14 s for 20,000, more than 100 s for 100,000.
+constexpr uint64_t kMostValues = 4096;
+
+struct Token {
+  std::string text;  // a word or one character
+  int line = 1;
+};
+
+// Without comments.
+std::vector<Token> tokensOf(const std::string& glsl) {
+  std::vector<Token> tokens;
+  int line = 1;
+  const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; };
+  for (size_t i = 0; i < glsl.size();) {
+    const size_t begin = i;
+    if (glsl.compare(i, 2, "//") == 0) {
+      i = std::min(glsl.find('\n', i), glsl.size());
+      continue;
+    }
+    if (glsl.compare(i, 2, "/*") == 0) {
+      const size_t end = glsl.find("*/", i + 2);
+      i = end == std::string::npos ? glsl.size() : end + 2;
+    } else if (isWord(glsl[i])) {
+      while (i < glsl.size() && isWord(glsl[i])) ++i;
+      tokens.push_back({glsl.substr(begin, i - begin), line});
+    } else {
+      if (std::isspace(static_cast<unsigned char>(glsl[i])) == 0) tokens.push_back({std::string(1, glsl[i]), line});
+      ++i;
+    }
+    line += static_cast<int>(std::count(glsl.begin() + static_cast<std::ptrdiff_t>(begin),
+                                        glsl.begin() + static_cast<std::ptrdiff_t>(i), '\n'));
+  }
+  return tokens;
+}
+
+class LoopSearch {
+ public:
+  explicit LoopSearch(std::vector<Token> tokens) : tokens_(std::move(tokens)) {}
+
+  int line() const {
+    for (size_t i = 0; i < tokens_.size(); ++i)
+      if (is(i, "do") ? isEndlessDo(i) : (is(i, "while") || is(i, "for")) && isEndless(i)) return tokens_[i].line;
+    return 0;
+  }
+
+ private:
+  bool is(size_t i, const char* text) const { return i < tokens_.size() && tokens_[i].text == text; }
+
+  // Behind the bracket that closes the one at `i`.
+  size_t behind(size_t i, const char* open, const char* close) const {
+    int depth = 0;
+    for (; i < tokens_.size(); ++i) {
+      depth += is(i, open) ? 1 : is(i, close) ? -1 : 0;
+      if (depth == 0) return i + 1;
+    }
+    return i;
+  }
+  size_t behindStatement(size_t i) const {
+    if (is(i, "{")) return behind(i, "{", "}");
+    while (i < tokens_.size() && !is(i, ";")) ++i;
+    return i + 1;
+  }
+  bool isTrue(size_t begin, size_t end) const {
+    return end == begin + 1 &&
+           (is(begin, "true") ||
+            (std::isdigit(static_cast<unsigned char>(tokens_[begin].text[0])) != 0 && !is(begin, "0")));
+  }
+  bool hasExit(size_t begin, size_t end) const {
+    for (size_t i = begin; i < std::min(end, tokens_.size()); ++i)
+      if (is(i, "break") || is(i, "return") || is(i, "discard")) return true;
+    return false;
+  }
+  bool isEndless(size_t i) const {
+    if (!is(i + 1, "(")) return false;
+    const size_t body = behind(i + 1, "(", ")");
+    size_t begin = i + 2, end = body - 1;
+    if (is(i, "for")) {
+      begin = behindStatement(begin);
+      end = begin;
+      while (end < tokens_.size() && !is(end, ";")) ++end;
+      if (begin == end) return !hasExit(body, behindStatement(body));
+    }
+    // `do ... while (true);` is seen at its beginning.
+    return !is(body, ";") && isTrue(begin, end) && !hasExit(body, behindStatement(body));
+  }
+  bool isEndlessDo(size_t i) const {
+    const size_t end = behindStatement(i + 1);
+    return is(end, "while") && isTrue(end + 2, behind(end + 1, "(", ")") - 1) && !hasExit(i, end);
+  }
+
+  std::vector<Token> tokens_;
+};
+
+// How many scalars the largest type of a module holds, arrays being what can make it large. SPIR-V 1.6, 3.49.6: each
+// instruction is a word with its length and opcode, then its operands.
+uint64_t largestType(const std::vector<uint32_t>& spirv) {
+  enum : uint32_t { kVector = 23, kMatrix = 24, kArray = 28, kStruct = 30, kConstant = 43 };
+  std::map<uint32_t, uint64_t> sizes, constants;
+  const auto sizeOf = [&](uint32_t id) { return sizes.contains(id) ? sizes[id] : 1; };
+  uint64_t largest = 0;
+  for (size_t i = 5; i < spirv.size();) {
+    const uint32_t opcode = spirv[i] & 0xffffu, length = spirv[i] >> 16;
+    if (length == 0 || length > spirv.size() - i) return UINT64_MAX;  // more operands than 16 bits count
+    const uint32_t* word = &spirv[i];
+    if (opcode == kConstant && length == 4) constants[word[2]] = word[3];
+    if (opcode == kVector || opcode == kMatrix) sizes[word[1]] = word[3] * sizeOf(word[2]);
+    if (opcode == kArray) sizes[word[1]] = std::min<uint64_t>(constants[word[3]] * sizeOf(word[2]), UINT32_MAX);
+    if (opcode == kStruct)
+      for (uint32_t member = 2; member < length; ++member) sizes[word[1]] += sizeOf(word[member]);
+    if (length > 1 && sizes.contains(word[1])) largest = std::max(largest, sizes[word[1]]);
+    i += length;
+  }
+  return largest;
+}
+
+int lineOf(const std::string& source, const std::string& word, const char* next) {
+  const std::vector<Token> tokens = tokensOf(source);
+  for (size_t i = 0; i + 1 < tokens.size(); ++i)
+    if (tokens[i].text == word && tokens[i + 1].text == next) return tokens[i].line;
+  return 0;
+}
+
+// Throws where it is about recursion, which glslang finds when it links, and then knows no lines.
+void explainLinkError(const UserBias& bias, const std::string& message) {
+  constexpr std::string_view kRecursion = "Recursion detected:";
+  const size_t at = message.find(kRecursion);
+  if (at == std::string::npos) return;
+  size_t begin = at + kRecursion.size();
+  while (begin < message.size() && message[begin] == ' ') ++begin;
+  const std::string function = message.substr(begin, message.find('(', begin) - begin);
+  throw WorldError(fmt::format("{}:{}: '{}' calls itself, perhaps by way of another function; GLSL has no recursion",
+                               bias.path, lineOf(bias.source, function, "("), function));
+}
+
+void checkText(const UserBias& bias) {
+  const std::vector<Token> tokens = tokensOf(bias.source);
+  for (size_t i = 0; i + 2 < tokens.size(); ++i)
+    if (tokens[i].text == "#" && tokens[i + 1].text == "define" && tokens[i + 2].text == "main")
+      throw WorldError(fmt::format("{}:{}: 'main' is the shader's that calls the bias; give the macro another name",
+                                   bias.path, tokens[i].line));
+  if (const int line = endlessLoop(bias.source))
+    throw WorldError(fmt::format(
+        "{}:{}: nothing ends this loop, and then Vulkan may do anything: lose the device, or go on with any result; "
+        "give it a break",
+        bias.path, line));
+}
+
+}  // namespace
+
+int endlessLoop(const std::string& glsl) {
+  return LoopSearch(tokensOf(glsl)).line();
+}
+
+void checkUserBias(const UserBias& bias) {
+  checkText(bias);
+  const std::string largest = runInChild(bias.path, kCompilerLimits, [&] {
+    try {
+      return fmt::format("{}", largestType(gpu::compileShader(shaderWith(kVisibilityShader, &bias))));
+    } catch (const WorldError& error) {
+      explainLinkError(bias, error.what());
+      throw WorldError(inUsersWords(error.what(), bias));
+    }
+  });
+  if (const uint64_t values = std::stoull(largest); values > kMostValues)
+    throw fileError(bias.path, fmt::format("an array or structure in it has more than {} values", kMostValues),
+                    "no driver compiles that in reasonable time; use a smaller one");
+}
+
+}  // namespace gnomon

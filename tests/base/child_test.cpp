@@ -1,0 +1,75 @@
+// What a child breaks, fills or never finishes is an error of one line.
+#include "base/child.h"
+#include "base/error.h"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace gnomon {
+namespace {
+
+constexpr ChildLimits kLimits{.bytes = 256 << 20, .seconds = 1};
+
+std::string messageOf(const std::function<std::string()>& work) {
+  try {
+    runInChild("file.x", kLimits, work);
+  } catch (const WorldError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ChildTest, HandsOverWhatItMakes) {
+  EXPECT_EQ(runInChild("file.x", kLimits, [] { return std::string(); }), "");
+  const std::string large(50'000'000, 'x');
+  EXPECT_EQ(runInChild("file.x", kLimits, [&] { return large; }), large);
+}
+
+TEST(ChildTest, ItsErrorsAreTheCallers) {
+  EXPECT_EQ(messageOf([]() -> std::string { throw WorldError("file.x: no; yes"); }), "file.x: no; yes");
+  EXPECT_EQ(messageOf([]() -> std::string { throw std::runtime_error("odd"); }), "odd");
+}
+
+TEST(ChildTest, ACrashNamesTheFileAndPrintsNothing) {
+  testing::internal::CaptureStderr();
+  const std::string message = messageOf([]() -> std::string {
+    std::fputs("a library's last words\n", stderr);
+    std::fflush(stderr);
+    std::raise(SIGSEGV);
+    return "";
+  });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_NE(message.find("file.x: is damaged: it crashes its reader (Segmentation fault)"), std::string::npos)
+      << message;
+}
+
+TEST(ChildTest, ItEndsInTimeWhetherItWorksOrWaits) {
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_NE(messageOf([]() -> std::string {
+              for (std::atomic<int> i = 0;; ++i) {
+              }
+            }).find("file.x: takes more than 1 s"),
+            std::string::npos);
+  EXPECT_NE(messageOf([] {
+              std::this_thread::sleep_for(std::chrono::seconds(60));
+              return std::string();
+            }).find("file.x: takes more than 1 s"),
+            std::string::npos);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(GNOMON_SANITIZED)
+TEST(ChildTest, ItHasNoMoreMemoryThanItIsGiven) {
+  const std::string message = messageOf([] { return std::string(size_t{1} << 30, 'x'); });
+  EXPECT_NE(message.find("file.x: takes more than 256 MiB of memory"), std::string::npos) << message;
+}
+#endif
+
+}  // namespace
+}  // namespace gnomon
