@@ -15,5 +15,8 @@ void main() {
   instanceIndex = gl_InstanceIndex;
   firstTriangle = instances[gl_InstanceIndex].firstTriangle;
   uv = uvs[gl_VertexIndex];
-  gl_Position = clipFromWorld * (instances[gl_InstanceIndex].worldFromMesh * vec4(positions[gl_VertexIndex], 1.0f));
+  // Precise, as in shadow/pull_frame_triangle.vert.glsl, which draws again where the depth is equal.
+  precise vec4 position =
+      clipFromWorld * (instances[gl_InstanceIndex].worldFromMesh * vec4(positions[gl_VertexIndex], 1.0f));
+  gl_Position = position;
 }

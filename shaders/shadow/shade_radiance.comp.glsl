@@ -16,9 +16,7 @@ void main() {
   PrimitiveId id = fetchPrimitive(pixel);
   float visible = visibility[index];
   vec3 color = vec3(0.0f);
-  if (id.instancePlusOne != 0u) {
-    SurfaceLight light = shadeSurface(pixel, id, visible);
-    color = visible == kUnknownVisibility ? vec3(1.0f, 0.0f, 1.0f) : light.albedo * (light.direct + light.ambient);
-  }
+  vec3 position;
+  if (id.instancePlusOne != 0u) color = seenColor(shadeSurface(pixel, id, visible, position), visible);
   radiance[index] = color;
 }

@@ -18,37 +18,39 @@
 
 GNOMON_SHARED_BEGIN
 
+// A face's axis (0 x, 1 y, 2 z) and the table's signs; factors of +-1 round nothing. Without a branch: lavapipe goes
+// through all of a switch, a component at a time.
+struct CubeFaceSigns {
+  int axis;
+  float s;
+  float t;
+  float m;
+};
+
+GNOMON_FN CubeFaceSigns cubeFaceSigns(int slice) {
+  CubeFaceSigns signs;
+  signs.axis = slice >> 1;
+  signs.m = (slice & 1) == 1 ? -1.0f : 1.0f;
+  signs.s = signs.axis == 0 ? -signs.m : signs.axis == 1 ? 1.0f : signs.m;
+  signs.t = signs.axis == 1 ? signs.m : -1.0f;
+  return signs;
+}
+
 // A point in a face's own coordinates: s, t, m.
 GNOMON_FN vec3 cubeFaceFromLight(int slice, vec3 posL) {
-  switch (slice) {
-    case 0:
-      return vec3(-posL.z, -posL.y, posL.x);
-    case 1:
-      return vec3(posL.z, -posL.y, -posL.x);
-    case 2:
-      return vec3(posL.x, posL.z, posL.y);
-    case 3:
-      return vec3(posL.x, -posL.z, -posL.y);
-    case 4:
-      return vec3(posL.x, -posL.y, posL.z);
-  }
-  return vec3(-posL.x, -posL.y, -posL.z);
+  CubeFaceSigns signs = cubeFaceSigns(slice);
+  float s = signs.axis == 0 ? posL.z : posL.x;
+  float t = signs.axis == 1 ? posL.z : posL.y;
+  float m = signs.axis == 0 ? posL.x : signs.axis == 1 ? posL.y : posL.z;
+  return vec3(signs.s * s, signs.t * t, signs.m * m);
 }
 
 GNOMON_FN vec3 cubeLightFromFace(int slice, vec3 stm) {
-  switch (slice) {
-    case 0:
-      return vec3(stm.z, -stm.y, -stm.x);
-    case 1:
-      return vec3(-stm.z, -stm.y, stm.x);
-    case 2:
-      return vec3(stm.x, stm.z, stm.y);
-    case 3:
-      return vec3(stm.x, -stm.z, -stm.y);
-    case 4:
-      return vec3(stm.x, -stm.y, stm.z);
-  }
-  return vec3(-stm.x, -stm.y, -stm.z);
+  CubeFaceSigns signs = cubeFaceSigns(slice);
+  float s = signs.s * stm.x;
+  float t = signs.t * stm.y;
+  float m = signs.m * stm.z;
+  return vec3(signs.axis == 0 ? m : s, signs.axis == 1 ? m : t, signs.axis == 0 ? s : signs.axis == 1 ? t : m);
 }
 
 // The face of the largest coordinate; where two are equal, x before y before z.
@@ -56,9 +58,10 @@ GNOMON_FN int cubeFace(vec3 posL) {
   float x = abs(posL.x);
   float y = abs(posL.y);
   float z = abs(posL.z);
-  if (x >= y && x >= z) return posL.x >= 0.0f ? 0 : 1;
-  if (y >= z) return posL.y >= 0.0f ? 2 : 3;
-  return posL.z >= 0.0f ? 4 : 5;
+  bool onX = x >= y && x >= z;
+  bool onY = !onX && y >= z;
+  float m = onX ? posL.x : onY ? posL.y : posL.z;
+  return (onX ? 0 : onY ? 2 : 4) + (m >= 0.0f ? 0 : 1);
 }
 
 GNOMON_FN MapPoint cubeProject(vec3 posL) {

@@ -7,6 +7,7 @@
 #include "shared/lang.glsl"
 #include "shared/light_frame.glsl"
 #include "shared/map.glsl"
+#include "shared/plane_view.glsl"
 #include "shared/scene.glsl"
 
 GNOMON_SHARED_BEGIN
@@ -26,6 +27,15 @@ struct ShadeUniforms {
   float coneCos;     // of its half angle; -1 where there is no cone
   vec3 lightColor;   // linear, times intensity times exposure
   vec3 ambient;      // linear
+};
+
+// The same in the light's frame, for the frame pass.
+const int kBindFrame = 32;
+struct FrameUniforms {
+  EyeView eye;
+  vec3 axisL;       // of the camera
+  vec3 coneAxisL;
+  vec3 towardsL;    // a directional light
 };
 
 // What decided a pixel: for labels, and for debugging.

@@ -23,12 +23,13 @@ void main() {
   PrimitiveId id = fetchPrimitive(pixel);
   vec3 color = vec3(0.0f);
   if (id.instancePlusOne != 0u) {
-    SurfaceLight light = shadeSurface(pixel, id, visibility[index]);
-    float toEye = min(length(light.position - media.camera.eyeW), media.medium.reach);
-    float toLight = length(towardsLight(shade, light.position));
+    vec3 position;
+    SurfaceLight light = shadeSurface(pixel, id, visibility[index], position);
+    float toEye = min(length(position - media.camera.eyeW), media.medium.reach);
+    float toLight = length(towardsLight(shade, position));
     if (kHeterogeneous == 1) {
       toEye = eyeDepth[index];
-      toLight = depthFromLight(push.reach, light.position - push.light.lightW);
+      toLight = depthFromLight(push.reach, position - push.light.lightW);
     }
     color = light.albedo * (light.direct * transmittance(media.medium, toLight + toEye) +
                             light.ambient * transmittance(media.medium, toEye));

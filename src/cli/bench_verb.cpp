@@ -19,6 +19,7 @@ namespace {
 struct BenchFlags {
   SceneFlags scene;
   MapFlags map;  // --map-texels, --cull and those of volumes
+  std::string only;
   int repeats = 9;
   bool noGrowth = false;
   bool noStart = false;
@@ -32,6 +33,7 @@ int runBenchVerb(const BenchFlags& flags) {
                        .mapOptions = flags.map.options,
                        .cull = parseCullMode(flags.map.cull),
                        .repeats = flags.repeats,
+                       .only = flags.only.empty() ? std::vector<std::string>{} : CLI::detail::split(flags.only, ','),
                        .growth = !flags.noGrowth,
                        .mostTriangles = flags.mostTriangles};
   for (const std::string& file : {flags.json, flags.svg})
@@ -60,6 +62,8 @@ Run addBench(CLI::App* verb) {
   verb->add_option("--repeats", flags->repeats, "rounds; medians are reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  verb->add_option("--only", flags->only,
+                   "a,b: only the stages with one of these in their names, and those they are compared with");
   verb->add_flag("--no-growth", flags->noGrowth, "skip the scaling measurements (triangles, map, picture, volume)");
   verb->add_flag("--no-start", flags->noStart,
                  "skip the start-up measurement (from typing gnomon render to the picture)");

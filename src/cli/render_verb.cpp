@@ -46,7 +46,7 @@ int runRender(const RenderFlags& flags) {
   if (options.maps.size() != 1 || options.biases.size() != 1 || options.filters.size() != 1)
     throw UsageError("render draws one configuration: give one --maps, one --biases and one --filters");
   checkOutput(flags.out);
-  preloadImages();
+  if (extension == ".exr") preloadImages();
   const Session session = openSession(flags.scene);
   const RenderedPicture picture = renderPicture(session, options, flags.show);
   if (!picture.note.empty()) std::fprintf(stderr, "gnomon: %s\n", picture.note.c_str());

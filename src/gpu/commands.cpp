@@ -138,6 +138,14 @@ VkRenderingAttachmentInfo attachment(const Image& image, std::optional<uint32_t>
   return info;
 }
 
+VkBufferImageCopy wholeImage(const Image& image, VkDeviceSize bufferOffset) {
+  VkBufferImageCopy region{};
+  region.bufferOffset = bufferOffset;
+  region.imageSubresource = {image.aspect(), 0, 0, image.desc().layerCount};
+  region.imageExtent = {image.desc().width, image.desc().height, 1};
+  return region;
+}
+
 VkExtent2D extentOf(const RenderTargets& targets) {
   const Image* first = targets.depth;
   for (const ColorTarget& color : targets.colors)
@@ -281,6 +289,13 @@ void Commands::bindIndexBuffer(const Buffer& buffer) {
   vkCmdBindIndexBuffer(commands_, buffer.handle(), 0, VK_INDEX_TYPE_UINT32);
 }
 
+void Commands::bindVertexStreams(const std::vector<const Buffer*>& streams) {
+  std::vector<VkBuffer> handles;
+  for (const Buffer* stream : streams) handles.push_back(stream->handle());
+  const std::vector<VkDeviceSize> offsets(handles.size(), 0);
+  vkCmdBindVertexBuffers(commands_, 0, static_cast<uint32_t>(handles.size()), handles.data(), offsets.data());
+}
+
 void Commands::drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex, int32_t vertexOffset,
                            uint32_t firstInstance) {
   GNOMON_CHECK(inRendering_);
@@ -321,11 +336,14 @@ void Commands::copy(const Buffer& from, const Buffer& to, VkDeviceSize size) {
 
 void Commands::copy(const Image& from, const Buffer& to) {
   GNOMON_CHECK(!inRendering_);
-  const ImageDesc& desc = from.desc();
-  VkBufferImageCopy region{};
-  region.imageSubresource = {from.aspect(), 0, 0, desc.layerCount};
-  region.imageExtent = {desc.width, desc.height, 1};
+  const VkBufferImageCopy region = wholeImage(from, 0);
   vkCmdCopyImageToBuffer(commands_, from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
+}
+
+void Commands::copy(const Buffer& from, const Image& to, VkDeviceSize fromOffset) {
+  GNOMON_CHECK(!inRendering_);
+  const VkBufferImageCopy region = wholeImage(to, fromOffset);
+  vkCmdCopyBufferToImage(commands_, from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
 }
 
 Submission Commands::submitAndWait() {

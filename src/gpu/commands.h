@@ -72,7 +72,8 @@ class Commands {
   // Other push constants for the program that is bound.
   void push(const GraphicsProgram& program, std::span<const std::byte> push);
   void setCulling(VkCullModeFlags mode, VkFrontFace front);
-  void bindIndexBuffer(const Buffer& buffer);  // 32-bit indices
+  void bindIndexBuffer(const Buffer& buffer);                         // 32-bit indices
+  void bindVertexStreams(const std::vector<const Buffer*>& streams);  // GraphicsDesc::vertexStreams
   void drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex, int32_t vertexOffset,
                    uint32_t firstInstance);
   void draw(uint32_t vertexCount, uint32_t instanceCount, uint32_t firstVertex, uint32_t firstInstance);
@@ -83,6 +84,7 @@ class Commands {
   void fill(const Buffer& buffer, uint32_t word);
   void copy(const Buffer& from, const Buffer& to, VkDeviceSize size);
   void copy(const Image& from, const Buffer& to);  // all layers, tightly packed
+  void copy(const Buffer& from, const Image& to, VkDeviceSize fromOffset);
 
   VkCommandBuffer handle() const { return commands_; }
 

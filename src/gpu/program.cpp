@@ -68,14 +68,12 @@ struct Stages {
   }
 };
 
-OwnedChild<VkSampler, vkDestroySampler> createNearestSampler(const Device& device) {
+OwnedChild<VkSampler, vkDestroySampler> createSampler(const Device& device, VkFilter filter,
+                                                      VkSamplerAddressMode beyond) {
   VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-  info.magFilter = VK_FILTER_NEAREST;
-  info.minFilter = VK_FILTER_NEAREST;
+  info.magFilter = info.minFilter = filter;
   info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
-  info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  info.addressModeU = info.addressModeV = info.addressModeW = beyond;
   VkSampler sampler = VK_NULL_HANDLE;
   GNOMON_VK_CHECK(vkCreateSampler(device.handle(), &info, nullptr, &sampler));
   return {device.handle(), sampler};
@@ -83,11 +81,13 @@ OwnedChild<VkSampler, vkDestroySampler> createNearestSampler(const Device& devic
 
 OwnedChild<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> createSetLayout(const Device& device,
                                                                                 const ProgramInterface& interface,
-                                                                                VkSampler sampler) {
+                                                                                VkSampler sampler,
+                                                                                VkSampler repeating) {
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const ProgramInterface::Binding& binding : interface.bindings) {
     const bool sampled = binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    bindings.push_back({binding.index, binding.type, 1, binding.stages, sampled ? &sampler : nullptr});
+    const VkSampler* immutable = !sampled ? nullptr : binding.repeats ? &repeating : &sampler;
+    bindings.push_back({binding.index, binding.type, 1, binding.stages, immutable});
   }
   VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
   info.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
@@ -115,7 +115,18 @@ OwnedChild<VkPipelineLayout, vkDestroyPipelineLayout> createLayout(const Device&
 // Everything of the graphics state that is not the same for all programs.
 VkPipeline createGraphicsPipeline(const Device& device, const GraphicsDesc& desc,
                                   const std::vector<VkPipelineShaderStageCreateInfo>& stages, VkPipelineLayout layout) {
-  const VkPipelineVertexInputStateCreateInfo vertexInput{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+  std::vector<VkVertexInputBindingDescription> streams;
+  std::vector<VkVertexInputAttributeDescription> attributes;
+  for (const VertexStream& stream : desc.vertexStreams) {
+    const auto number = static_cast<uint32_t>(streams.size());
+    streams.push_back({number, stream.stride, VK_VERTEX_INPUT_RATE_VERTEX});
+    attributes.push_back({number, number, stream.format, 0});
+  }
+  VkPipelineVertexInputStateCreateInfo vertexInput{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+  vertexInput.vertexBindingDescriptionCount = static_cast<uint32_t>(streams.size());
+  vertexInput.pVertexBindingDescriptions = streams.data();
+  vertexInput.vertexAttributeDescriptionCount = static_cast<uint32_t>(attributes.size());
+  vertexInput.pVertexAttributeDescriptions = attributes.data();
   VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
   assembly.topology = desc.topology;
   VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
@@ -179,11 +190,14 @@ void Program::createLayouts(const Device& device) {
   if (interface_.pushConstantBytes > device.info().maxPushConstantBytes)
     throw WorldError(fmt::format("{}: {} bytes of push constants, and device '{}' has {}; move some to a buffer", name_,
                                  interface_.pushConstantBytes, device.info().name, device.info().maxPushConstantBytes));
-  const bool sampled = std::any_of(interface_.bindings.begin(), interface_.bindings.end(), [](const auto& binding) {
-    return binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-  });
-  if (sampled) sampler_ = createNearestSampler(device);
-  setLayout_ = createSetLayout(device, interface_, sampler_.get());
+  for (const ProgramInterface::Binding& binding : interface_.bindings) {
+    if (binding.type != VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER) continue;
+    if (binding.repeats)
+      repeatingSampler_ = createSampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT);
+    else
+      sampler_ = createSampler(device, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+  }
+  setLayout_ = createSetLayout(device, interface_, sampler_.get(), repeatingSampler_.get());
   nameObject(device, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, setLayout_.get(), name_);
   layout_ = createLayout(device, interface_, setLayout_.get());
   nameObject(device, VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout_.get(), name_);

@@ -21,6 +21,7 @@ struct ProgramInterface {
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     VkShaderStageFlags stages = 0;
     std::string name;
+    bool repeats = false;  // a sampler2D
   };
   std::vector<Binding> bindings;  // by index, stages merged
   uint32_t pushConstantBytes = 0;
@@ -45,7 +46,8 @@ class Program {
   std::string name_;
   ProgramInterface interface_;
   VkPipelineBindPoint bindPoint_ = VK_PIPELINE_BIND_POINT_COMPUTE;
-  OwnedChild<VkSampler, vkDestroySampler> sampler_;  // nearest, clamped: for every sampler2DArray
+  OwnedChild<VkSampler, vkDestroySampler> sampler_;           // nearest, clamped: for every sampler of layers
+  OwnedChild<VkSampler, vkDestroySampler> repeatingSampler_;  // linear, repeating: for every sampler2D
   OwnedChild<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> setLayout_;
   OwnedChild<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
   OwnedChild<VkPipeline, vkDestroyPipeline> pipeline_;
@@ -74,6 +76,12 @@ class ComputePrograms {
   mutable std::vector<std::unique_ptr<Entry>> entries_;
 };
 
+// One attribute of a vertex, in a buffer of its own, tightly packed; its location is its place in the list.
+struct VertexStream {
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  uint32_t stride = 0;  // bytes
+};
+
 struct GraphicsDesc {
   const char* name = nullptr;
   ShaderSource vertex;
@@ -84,13 +92,13 @@ struct GraphicsDesc {
   VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
   bool depthWrite = true;
   bool depthClamp = false;
-  uint32_t viewMask = 0;  // multiview
-  bool minBlend = false;  // colour attachments keep the minimum
+  uint32_t viewMask = 0;                    // multiview
+  bool minBlend = false;                    // colour attachments keep the minimum
+  std::vector<VertexStream> vertexStreams;  // none: the vertex shader pulls them from storage buffers
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
 };
 
-// Vertices are pulled from storage buffers by gl_VertexIndex; there is no vertex input. Viewport, scissor,
-// cull mode and front face are dynamic.
+// Viewport, scissor, cull mode and front face are dynamic.
 class GraphicsProgram : public Program {
  public:
   GraphicsProgram() = default;

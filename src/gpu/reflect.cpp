@@ -61,10 +61,13 @@ ProgramInterface::Binding bindingOf(spvc_compiler compiler, const spvc_reflected
   // A block is known by its instance name, or else by its block name.
   const char* instance = spvc_compiler_get_name(compiler, resource.id);
   binding.name = instance && *instance ? instance : resource.name;
+  binding.repeats = type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER &&
+                    spvc_type_get_image_dimension(handle) == SpvDim2D &&
+                    spvc_type_get_image_arrayed(handle) == SPVC_FALSE;
   const uint32_t set = spvc_compiler_get_decoration(compiler, resource.id, SpvDecorationDescriptorSet);
   if (set != 0)
     throw WorldError(fmt::format("binding '{}' is in set {}; every binding must be in set 0", binding.name, set));
-  if (spvc_type_get_num_array_dimensions(spvc_compiler_get_type_handle(compiler, resource.type_id)) != 0)
+  if (spvc_type_get_num_array_dimensions(handle) != 0)
     throw WorldError(
         fmt::format("binding '{}' is an array of resources; use an array texture or one buffer", binding.name));
   return binding;

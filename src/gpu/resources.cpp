@@ -113,6 +113,7 @@ VkDeviceSize packedBytes(const ImageDesc& desc) {
 
 VkImageCreateInfo imageInfo(const ImageDesc& desc) {
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+  if (desc.cube) info.flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = desc.format;
   info.extent = {desc.width, desc.height, 1};
@@ -225,6 +226,7 @@ Image::Image(const Device& device, const ImageDesc& desc) : desc_(desc) {
   GNOMON_CHECK(desc.name != nullptr);
   GNOMON_CHECK(desc.width > 0 && desc.height > 0 && desc.layerCount > 0);
   GNOMON_CHECK(desc.array || desc.layerCount == 1);
+  GNOMON_CHECK(!desc.cube || desc.layerCount == 6);
   checkLimits(device, desc);
   const VkImageCreateInfo info = imageInfo(desc);
   VkImage handle = VK_NULL_HANDLE;
@@ -243,7 +245,9 @@ Image::Image(const Device& device, const ImageDesc& desc) : desc_(desc) {
       VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT;
   if (desc.usage & viewUsages) {
-    const VkImageViewType type = desc.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    const VkImageViewType type = desc.cube    ? VK_IMAGE_VIEW_TYPE_CUBE
+                                 : desc.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                              : VK_IMAGE_VIEW_TYPE_2D;
     view_ = createView(device, handle, desc, type, {aspect(), 0, 1, 0, desc.layerCount});
     for (uint32_t layer = 0; layer < desc.layerCount; ++layer)
       layerViews_.push_back(createView(device, handle, desc, VK_IMAGE_VIEW_TYPE_2D, {aspect(), 0, 1, layer, 1}));

@@ -50,6 +50,7 @@ struct ImageDesc {
   uint32_t width = 1, height = 1;  // texels
   uint32_t layerCount = 1;         // the view is 2D_ARRAY when `array`, else 2D
   bool array = false;
+  bool cube = false;            // of an array of 6: the view is CUBE
   VkImageUsageFlags usage = 0;  // transfer source and destination are added
 };
 

@@ -1,5 +1,6 @@
 #include "judge/light_on_map.h"
 
+#include "base/check.h"
 #include "base/error.h"
 #include "judge/filtered_truth.h"
 #include "judge/texel_density.h"
@@ -191,11 +192,45 @@ Exposure LightOnMap::exposure() const {
   return {.lightColor = color * static_cast<float>(0.75 * typical), .ambient = glm::vec3(0.07f, 0.08f, 0.10f)};
 }
 
-ImageF LightOnMap::radiance(std::span<const float> visibility, const Exposure& exposure) const {
-  glsl::ShadeUniforms shade = shadeUniforms(view_.view(), light_, {});
+glsl::ShadeUniforms LightOnMap::exposedUniforms(const Exposure& exposure, const glsl::BiasParams& params) const {
+  glsl::ShadeUniforms shade = shadeUniforms(view_.view(), light_, params);
   shade.lightColor = exposure.lightColor;
   shade.ambient = exposure.ambient;
-  return passes_.shade(view_, shade, visibility);
+  return shade;
+}
+
+ImageF LightOnMap::radiance(std::span<const float> visibility, const Exposure& exposure) const {
+  return passes_.shade(view_, exposedUniforms(exposure, {}), visibility);
+}
+
+ImageF LightOnMap::picture(const Method& method, const ChosenFilter& filter) {
+  const Occluders& drawn = occluders(method.bias->channels);
+  gpu::Commands commands(view_.device(), "frame");
+  const bool inOnePass =
+      drawn.recordFrame(commands, view_.buffers(), passes_.frame, {.bias = *method.bias, .filter = filter},
+                        exposedUniforms(exposure(), method.params));
+  if (!inOnePass) return radiance(visibility(method, filter));
+  commands.submitAndWait();
+  const auto colors = gpu::downloadAs<glm::vec4>(view_.device(), passes_.frame.radiance());
+  ImageF image(view_.view().width, view_.view().height, 3);
+  for (size_t i = 0; i < colors.size(); ++i)
+    for (int channel = 0; channel < 3; ++channel)
+      image.values[3 * i + static_cast<size_t>(channel)] = colors[i][channel];
+  return image;
+}
+
+double LightOnMap::timeFrame(const Method& method, const ChosenFilter& filter, bool redrawn) {
+  occluders(method.bias->channels);
+  Occluders& drawn = *occluders_.at(method.bias->channels);
+  const glsl::ShadeUniforms shade = exposedUniforms(exposure(), method.params);
+  gpu::Commands commands(view_.device(), "frame");
+  if (redrawn) {
+    drawn.recordDrawing(commands, passes_.maps, view_.buffers(), light_, setup_.cull);
+    commands.barrier("the map is drawn -> the frame looks it up");
+  }
+  GNOMON_CHECK(
+      drawn.recordFrame(commands, view_.buffers(), passes_.frame, {.bias = *method.bias, .filter = filter}, shade));
+  return commands.submitAndWait().wallMs;
 }
 
 }  // namespace gnomon

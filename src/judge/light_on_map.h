@@ -115,6 +115,10 @@ class LightOnMap {
   // Linear rgb by one visibility a pixel.
   ImageF radiance(std::span<const float> visibility, const Exposure& exposure) const;
   ImageF radiance(std::span<const float> visibility) const { return radiance(visibility, exposure()); }
+  // The same by one method, in one pass where the occluders have it.
+  ImageF picture(const Method& method, const ChosenFilter& filter = glsl::kShadowFilterNone);
+  // Wall clock of that pass, with the occluders drawn before it or without; milliseconds. Of a map.
+  double timeFrame(const Method& method, const ChosenFilter& filter, bool redrawn);
 
  private:
   struct Fit {
@@ -123,6 +127,7 @@ class LightOnMap {
   };
   const Fit& fit() const;
   double timeLookup(const Method& method, const ShadowLookup& lookup);
+  glsl::ShadeUniforms exposedUniforms(const Exposure& exposure, const glsl::BiasParams& params) const;
 
   const SceneView& view_;
   ShadowPasses& passes_;

@@ -4,6 +4,7 @@
 
 #include "base/image.h"
 #include "judge/scene_view.h"
+#include "shadow/frame_pass.h"
 #include "shadow/visibility_pass.h"
 
 namespace gnomon {
@@ -12,6 +13,7 @@ struct ShadowPasses {
   MapRenderer maps;
   VisibilityPass visibility;
   RadiancePass radiance;
+  FramePass frame;  // instead of the two before it, where one method is asked for
 
   ShadowPasses(const gpu::Device& device, int width, int height);  // pixels
   explicit ShadowPasses(const SceneView& view);

@@ -88,6 +88,8 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
                              .doubleSided = material.doubleSided,
                              .solid = isSolid(scene, mesh),
                              .mirrored = mirrored,
+                             .worldFromMesh = instance.worldFromMesh,
+                             .material = toGpu(material),
                              .boundsW = instanceBounds(mesh, instance.worldFromMesh),
                              .firstPart = static_cast<uint32_t>(buffers.partBoundsW.size()),
                              .partCount = static_cast<uint32_t>(parts[instance.mesh].size())});
@@ -121,9 +123,10 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
     buffers.masked = buffers.masked || material.alphaMode == AlphaMode::Mask;
   }
 
-  buffers.positions = gpu::createBufferWith(device, "positions", positions);
-  buffers.normals = gpu::createBufferWith(device, "normals", normals);
-  buffers.uvs = gpu::createBufferWith(device, "uvs", uvs);
+  constexpr VkBufferUsageFlags kVertices = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+  buffers.positions = gpu::createBufferWith(device, "positions", positions, kVertices);
+  buffers.normals = gpu::createBufferWith(device, "normals", normals, kVertices);
+  buffers.uvs = gpu::createBufferWith(device, "uvs", uvs, kVertices);
   buffers.triangles = gpu::createBufferWith(device, "triangles", indices,
                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   buffers.instances = gpu::createBufferWith(device, "instances", instances);

@@ -20,9 +20,11 @@ struct Draw {
   bool doubleSided = false;  // the camera sees both sides
   bool solid = false;        // closed and not doubleSided: its back faces may be culled from a map
   bool mirrored = false;     // the instance's matrix turns the winding round
-  Bounds boundsW;            // metres
-  uint32_t firstPart = 0;    // in SceneBuffers::partBoundsW
-  uint32_t partCount = 0;    // 0: not cut in parts
+  glm::mat4 worldFromMesh{1.0f};
+  glsl::SceneMaterial material{};
+  Bounds boundsW;          // metres
+  uint32_t firstPart = 0;  // in SceneBuffers::partBoundsW
+  uint32_t partCount = 0;  // 0: not cut in parts
 };
 
 // A large draw is cut in parts of as many indices, the last one less, so that a map's slice need not draw

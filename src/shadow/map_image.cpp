@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "shadow/frame_pass.h"
 #include "shadow/slice_culling.h"
 #include "shadow/visibility_pass.h"
 
@@ -104,6 +105,15 @@ void MapImage::recordDrawing(gpu::Commands& commands, const MapRenderer& rendere
 void MapImage::recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                                 VisibilityPass& pass, const ShadowLookup& lookup) const {
   pass.record(commands, scene, gbuffer, *this, lookup.bias, lookup.diagnose, lookup.filter);
+}
+
+bool MapImage::recordFrame(gpu::Commands& commands, const SceneBuffers& scene, FramePass& pass,
+                           const ShadowLookup& lookup, const glsl::ShadeUniforms& shade) const {
+  // What those read beside the map is bound by the visibility pass alone.
+  if (lookup.bias.knowsSurfaces() || (lookup.bias.channels & (glsl::kChannelIds | glsl::kChannelSecondIds)) != 0)
+    return false;
+  pass.record(commands, scene, *this, lookup.bias, lookup.filter, shade);
+  return true;
 }
 
 std::vector<float> MapImage::downloadDepth(const gpu::Device& device) const {

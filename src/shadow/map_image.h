@@ -32,6 +32,8 @@ class MapImage final : public Occluders {
                      const LightModel& light, CullMode cull) override;
   void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                         VisibilityPass& pass, const ShadowLookup& lookup) const override;
+  bool recordFrame(gpu::Commands& commands, const SceneBuffers& scene, FramePass& pass, const ShadowLookup& lookup,
+                   const glsl::ShadeUniforms& shade) const override;
   const gpu::Image& depth() const override { return image(glsl::kChannelDepth); }
   const gpu::Image& secondDepth() const { return image(glsl::kChannelSecondDepth); }
   std::vector<float> downloadDepth(const gpu::Device& device) const override;

@@ -8,11 +8,14 @@
 #include "shadow/filter.h"
 #include "shadow/parameterization.h"
 
+#include "shared/shade.glsl"
+
 #include <string>
 #include <vector>
 
 namespace gnomon {
 
+class FramePass;
 class MapRenderer;
 class VisibilityPass;
 
@@ -48,6 +51,13 @@ class Occluders {
   // The visibility of each pixel, into the buffers of `pass`. The parameterization must support bias and filter.
   virtual void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                                 VisibilityPass& pass, const ShadowLookup& lookup) const = 0;
+
+  // The whole picture, visibility and shading, in one pass. False where these
+  // occluders have no such pass, and nothing is recorded.
+  virtual bool recordFrame(gpu::Commands&, const SceneBuffers&, FramePass&, const ShadowLookup&,
+                           const glsl::ShadeUniforms&) const {
+    return false;
+  }
 
   // What a medium reads along its view rays: a volume's bits, 128 at a time, or depths, one look-up a sample.
   virtual const gpu::Buffer* bits() const { return nullptr; }  // null where there are depths only

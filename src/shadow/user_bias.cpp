@@ -122,12 +122,13 @@ std::string knobConstant(const std::string& knob) {
   return constant;
 }
 
-gpu::ShaderSource visibilityShader(const UserBias& bias) {
-  return {kVisibilityShader,
-          {{std::string(kUserShader), bias.source}, {"shared/bias/user_knobs.glsl", bias.knobsGlsl}}};
+gpu::ShaderSource shaderWith(const char* path, const UserBias* bias) {
+  if (bias == nullptr) return {path, {}};
+  return {path, {{std::string(kUserShader), bias->source}, {"shared/bias/user_knobs.glsl", bias->knobsGlsl}}};
 }
 
-std::string inUsersWords(const UserBias& bias, std::string message) {
+// The compiler knows the file by the name it takes the place of.
+std::string inUsersWords(std::string message, const UserBias& bias) {
   for (size_t at = 0; (at = message.find(kUserShader, at)) != std::string::npos; at += bias.path.size())
     message.replace(at, kUserShader.size(), bias.path);
   return message;

@@ -16,6 +16,8 @@
 #include "gpu/shader_compiler.h"
 #include "shadow/bias.h"
 
+#include "gpu/shader_compiler.h"
+
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -37,10 +39,10 @@ std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path);
 std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source);
 
 inline constexpr const char* kVisibilityShader = "shadow/shade_visibility.comp.glsl";
-// The visibility pass's shader with this bias in it.
-gpu::ShaderSource visibilityShader(const UserBias& bias);
-// A compiler's message: it knows the file by the name it takes the place of.
-std::string inUsersWords(const UserBias& bias, std::string message);
+// A shader of ours with the user's bias in its place; as it is where there is none.
+gpu::ShaderSource shaderWith(const char* path, const UserBias* bias);
+// What the compiler said of it, with the user's file named as the user wrote it.
+std::string inUsersWords(std::string message, const UserBias& bias);
 
 // "max-offset" -> "kUserMaxOffset".
 std::string knobConstant(const std::string& knob);

@@ -176,10 +176,10 @@ void checkUserBias(const UserBias& bias) {
   checkText(bias);
   const std::string largest = runInChild(bias.path, kCompilerLimits, [&] {
     try {
-      return fmt::format("{}", largestType(gpu::compileShader(visibilityShader(bias))));
+      return fmt::format("{}", largestType(gpu::compileShader(shaderWith(kVisibilityShader, &bias))));
     } catch (const WorldError& error) {
       explainLinkError(bias, error.what());
-      throw WorldError(inUsersWords(bias, error.what()));
+      throw WorldError(inUsersWords(error.what(), bias));
     }
   });
   if (const uint64_t values = std::stoull(largest); values > kMostValues)

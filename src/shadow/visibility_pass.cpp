@@ -32,11 +32,11 @@ VkDeviceSize pixelBytes(int width, int height, size_t each) {
 
 gpu::ComputeProgram createProgram(const gpu::Device& device, const UserBias* user,
                                   const std::vector<gpu::Specialization>& constants) {
-  if (user == nullptr) return {device, {kVisibilityShader, {}}, constants};
   try {
-    return {device, visibilityShader(*user), constants};
+    return {device, shaderWith(kVisibilityShader, user), constants};
   } catch (const WorldError& error) {
-    throw WorldError(inUsersWords(*user, error.what()));
+    if (user == nullptr) throw;
+    throw WorldError(inUsersWords(error.what(), *user));
   }
 }
 

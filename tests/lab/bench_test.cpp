@@ -1,5 +1,9 @@
 // The bench: ratios are of one round, and its curves and numbers are all there.
 #include "lab/bench/bench.h"
+#include "base/error.h"
+#include "lab/bench/bare_rays.h"
+#include "lab/bench/plain_forward.h"
+#include "omni/cube_map.h"
 #include "vsv/volume_parameterization.h"
 
 #include <gtest/gtest.h>
@@ -41,6 +45,59 @@ TEST(Bench, TheCurvesAreOneDrawingThatNamesEveryStageAndSize) {
   EXPECT_EQ(growthSvg({}), "");
 }
 
+TEST(Bench, ChosenStagesComeWithWhatTheyAreComparedWith) {
+  const auto run = [] { return 1.0; };
+  const std::vector<TimedStage> stages = {
+      {"limit", "", run}, {"map", "limit", run}, {"look", "map", run}, {"other", "limit", run}};
+  const auto namesOf = [](const std::vector<TimedStage>& chosen) {
+    std::string names;
+    for (const TimedStage& stage : chosen) names += stage.name + " ";
+    return names;
+  };
+  EXPECT_EQ(namesOf(chosenStages(stages, {})), "limit map look other ");
+  EXPECT_EQ(namesOf(chosenStages(stages, {"loo"})), "limit map look ");
+  EXPECT_EQ(namesOf(chosenStages(stages, {"oth", "map"})), "limit map other ");
+  EXPECT_THROW(chosenStages(stages, {"nothing"}), UsageError);
+}
+
+// The limit is of the same shadow: as many rays are blocked as the exact shadow says, but for those that end on another
+// surface within a ten-thousandth.
+TEST(Bench, BareRaysAnswerTheSameQuestion) {
+  const Session session({}, {.scene = "contact", .size = "128"});
+  ShadowPasses passes(session);
+  const LightOnMap cube = openLight(session, passes, cubeParameterization(), {.side = 64});
+  BareRays rays(session.scene(), cube.light(), cube.receivers());
+  EXPECT_EQ(rays.count(), cube.receivers().scored);
+  rays.trace();
+  const double shadowed = static_cast<double>(cube.receivers().scored - cube.truth().litCount);
+  EXPECT_GT(shadowed, 500.0);
+  EXPECT_NEAR(static_cast<double>(rays.occluded()), shadowed, 0.01 * shadowed);
+}
+
+// The baseline draws the scene that it is compared on: its picture is the frame pass's but for the headlight of the
+// ambient light and what its own bias says.
+TEST(Bench, ThePlainRendererDrawsTheSamePicture) {
+  const Session session({}, {.scene = "contact", .size = "128"});
+  ShadowPasses passes(session);
+  LightOnMap cube = openLight(session, passes, cubeParameterization(), {.side = 256});
+  const PlainForward plain(session, cube, 0.02f);
+  gpu::Commands commands(session.device(), "plain");
+  plain.recordMap(commands);
+  commands.barrier("the plain cube is drawn -> the plain picture looks it up");
+  plain.recordPicture(commands);
+  commands.submitAndWait();
+  const auto seen = gpu::downloadAs<glm::vec4>(session.device(), plain.picture());
+  const ImageF ours = cube.picture(atDefaults(findBias("adaptive"), session));
+  size_t surfaces = 0, alike = 0;
+  for (size_t i = 0; i < seen.size(); ++i) {
+    if (session.primitiveIds()[i].instancePlusOne == 0) continue;
+    ++surfaces;
+    alike += std::abs(seen[i].y - ours.values[3 * i + 1]) < 0.06f ? 1 : 0;
+  }
+  EXPECT_GT(surfaces, 8000u);
+  EXPECT_GT(alike, surfaces * 95 / 100);
+}
+
 TEST(Bench, EveryStageOfASceneIsTimedAgainstOneThatIsThere) {
   const Session session({}, {.scene = "contact", .size = "32"});
   BenchOptions options{.mapTexels = 6 * 32 * 32, .repeats = 1, .growth = false};
@@ -62,7 +119,8 @@ TEST(Bench, EveryStageOfASceneIsTimedAgainstOneThatIsThere) {
     ++compared;
   }
   EXPECT_GT(compared, names.size() / 2);
-  for (const char* name : {"map/cube/two layers", "map/paraboloid, vertex/one layer", "visibility/cube/adaptive",
+  for (const char* name : {"baseline/forward", "frame/cube/adaptive", "limit/rtcOccluded16", "limit/device copy 64 MiB",
+                           "map/cube/two layers", "map/paraboloid, vertex/one layer", "visibility/cube/adaptive",
                            "volume/bits, one pass", "truth/exact shadow", "media/runs", "media/march 512 steps"})
     EXPECT_TRUE(names.contains(name)) << name;
 }

@@ -6,26 +6,50 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace gnomon {
 
+namespace {
+
+double processorMs() {
+  timespec time{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+// Of the same rounds.
+double medianRatio(const std::vector<double>& times, const std::vector<double>& base) {
+  std::vector<double> ratios;
+  for (size_t round = 0; round < base.size(); ++round) ratios.push_back(times[round] / base[round]);
+  return median(ratios);
+}
+
+}  // namespace
+
 std::vector<StageCost> timeInRounds(const std::vector<TimedStage>& stages, int repeats) {
   GNOMON_CHECK(repeats >= 1);
   Progress progress("bench", repeats + 1);
   progress.step("first run of each stage");
   for (const TimedStage& stage : stages) stage.run();
-  std::vector<std::vector<double>> times(stages.size());
+  std::vector<std::vector<double>> times(stages.size()), cpuTimes(stages.size());
   for (int round = 0; round < repeats; ++round) {
     progress.step(fmt::format("round {} of {}", round + 1, repeats));
-    for (size_t i = 0; i < stages.size(); ++i) times[i].push_back(stages[i].run());
+    for (size_t i = 0; i < stages.size(); ++i) {
+      const double before = processorMs();
+      times[i].push_back(stages[i].run());
+      cpuTimes[i].push_back(processorMs() - before);
+    }
   }
   std::map<std::string, size_t> indexOf;
   for (size_t i = 0; i < stages.size(); ++i) indexOf[stages[i].name] = i;
@@ -36,16 +60,33 @@ std::vector<StageCost> timeInRounds(const std::vector<TimedStage>& stages, int r
                    .medianMs = median(times[i]),
                    .minMs = least,
                    .maxMs = most,
-                   .ratioTo = stages[i].ratioTo};
+                   .ratioTo = stages[i].ratioTo,
+                   .cpuMs = median(cpuTimes[i])};
     if (!cost.ratioTo.empty()) {
-      const std::vector<double>& base = times[indexOf.at(cost.ratioTo)];
-      std::vector<double> ratios;
-      for (size_t round = 0; round < base.size(); ++round) ratios.push_back(times[i][round] / base[round]);
-      cost.ratio = median(ratios);
+      const size_t base = indexOf.at(cost.ratioTo);
+      cost.ratio = medianRatio(times[i], times[base]);
+      cost.cpuRatio = medianRatio(cpuTimes[i], cpuTimes[base]);
     }
     costs.push_back(cost);
   }
   return costs;
+}
+
+std::vector<TimedStage> chosenStages(const std::vector<TimedStage>& stages, const std::vector<std::string>& words) {
+  if (words.empty()) return stages;
+  std::set<std::string> wanted;
+  for (auto stage = stages.rbegin(); stage != stages.rend(); ++stage) {
+    const bool named =
+        std::ranges::any_of(words, [&](const std::string& w) { return stage->name.find(w) != std::string::npos; });
+    if (!named && !wanted.contains(stage->name)) continue;
+    wanted.insert(stage->name);
+    wanted.insert(stage->ratioTo);
+  }
+  std::vector<TimedStage> chosen;
+  for (const TimedStage& stage : stages)
+    if (wanted.contains(stage.name)) chosen.push_back(stage);
+  if (chosen.empty()) throw UsageError(fmt::format("--only {}: no stage has that in its name", fmt::join(words, ",")));
+  return chosen;
 }
 
 namespace {
@@ -130,7 +171,7 @@ Bench runBench(const Session& session, const gpu::DeviceOptions& device, const B
   if (!options.program.empty()) bench.start = measureStart(options.program, session.setup());
   {
     const BenchStages stages(session, options);
-    bench.stages = timeInRounds(stages.stages(), options.repeats);
+    bench.stages = timeInRounds(chosenStages(stages.stages(), options.only), options.repeats);
   }
   if (options.growth) bench.growths = measureGrowth(session, device, options);
   return bench;

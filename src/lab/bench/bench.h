@@ -27,10 +27,16 @@ struct StageCost {
   double medianMs = 0.0, minMs = 0.0, maxMs = 0.0;
   double ratio = 0.0;  // median over the rounds of this stage's time over ratioTo's; 0 where that is empty
   std::string ratioTo;
+  // The same of the processor time of all threads: where the device is a CPU, what others do on the machine leaves it
+  // as it is.
+  double cpuMs = 0.0, cpuRatio = 0.0;
 };
 
 // Each stage once untimed, then `repeats` rounds of all.
 std::vector<StageCost> timeInRounds(const std::vector<TimedStage>& stages, int repeats);
+
+// The stages whose names hold one of the words, with those that they are compared with, in their order.
+std::vector<TimedStage> chosenStages(const std::vector<TimedStage>& stages, const std::vector<std::string>& words);
 
 // How the cost of some stages grows with one size.
 struct Growth {
@@ -55,6 +61,7 @@ struct BenchOptions {
   MapOptions mapOptions;
   CullMode cull = CullMode::Solids;
   int repeats = 9;
+  std::vector<std::string> only;  // words: stages whose names hold one, and what they are compared with; empty: all
   bool growth = true;
   int64_t mostTriangles = 10'000'000;  // of the growth with triangles
   std::filesystem::path program;       // gnomon itself, for the start; empty: not timed
@@ -79,6 +86,7 @@ class BenchStages {
  private:
   struct Maps;
   void addLimits();
+  void addFrame();
   void addGBufferAndTruth();
   void addMaps();
   void addVisibility();

@@ -1,5 +1,7 @@
 #include "lab/bench/bench.h"
 
+#include "lab/bench/bare_rays.h"
+#include "lab/bench/plain_forward.h"
 #include "lab/core/maps.h"
 #include "lab/fog/fog_view.h"
 #include "omni/cube_map.h"
@@ -20,6 +22,7 @@ namespace {
 constexpr const char* kEmpty = "limit/empty submission";
 constexpr const char* kBaseMap = "map/cube/one layer";
 constexpr const char* kBaseVisibility = "visibility/cube/constant";
+constexpr const char* kPlainFrame = "baseline/forward";
 constexpr uint64_t kCopiedBytes = 64 << 20;  // as many as a volume of 1024 x 1024 x 512 has
 
 double millisecondsOf(const std::function<void()>& work) {
@@ -58,6 +61,8 @@ struct BenchStages::Maps {
   gpu::Buffer from, to;
   gpu::Image cleared;
   std::vector<std::byte> hostFrom, hostTo;
+  std::unique_ptr<PlainForward> plain;
+  std::unique_ptr<BareRays> bareRays;
   std::unique_ptr<BenchMedium> medium;
 
   Maps(const Session& session)
@@ -92,6 +97,7 @@ BenchStages::BenchStages(const Session& session, const BenchOptions& options)
     : session_(session), options_(options), maps_(std::make_unique<Maps>(session)) {
   addLimits();
   addMaps();
+  addFrame();
   addVisibility();
   addGBufferAndTruth();
   addVolumes();
@@ -145,10 +151,36 @@ void BenchStages::addMaps() {
   for (const Parameterization* kind : otherMaps()) buildWithVariants(*kind);
 }
 
+// The frame as anybody would write it, and ours with the same map and light: from the cube to the shaded picture.
+void BenchStages::addFrame() {
+  BenchMap& cube = maps_->named("cube");
+  const Method constant = atDefaults(findBias("constant"), session_);
+  maps_->plain = std::make_unique<PlainForward>(session_, cube.lit, constant.params.knobs[0]);
+  const auto plain = [this](bool map, bool picture) {
+    gpu::Commands commands(session_.device(), "plain frame");
+    if (map) maps_->plain->recordMap(commands);
+    if (map && picture) commands.barrier("the plain cube is drawn -> the plain picture looks it up");
+    if (picture) maps_->plain->recordPicture(commands);
+    return commands.submitAndWait().wallMs;
+  };
+  add(kPlainFrame, kBaseMap, [plain] { return plain(true, true); });
+  add("baseline/forward, its map", kBaseMap, [plain] { return plain(true, false); });
+  add("baseline/forward, its picture", kBaseMap, [plain] { return plain(false, true); });
+  for (const char* bias : {"constant", "adaptive", "dual"}) {
+    const Method method = atDefaults(findBias(bias), session_);
+    add(fmt::format("frame/cube/{}", bias), kPlainFrame,
+        [&cube, method] { return cube.lit.timeFrame(method, glsl::kShadowFilterNone, true); });
+    add(fmt::format("frame/cube/{}, its picture", bias), kPlainFrame,
+        [&cube, method] { return cube.lit.timeFrame(method, glsl::kShadowFilterNone, false); });
+  }
+}
+
 void BenchStages::addGBufferAndTruth() {
   add("gbuffer", kBaseMap, [this] { return session_.timeGBuffer(); });
   const LightOnMap& cube = maps_->named("cube").lit;
-  add("truth/exact shadow", kBaseVisibility, [this, &cube] {
+  maps_->bareRays = std::make_unique<BareRays>(session_.scene(), cube.light(), cube.receivers());
+  add("limit/rtcOccluded16", kBaseVisibility, [this] { return maps_->bareRays->trace(); });
+  add("truth/exact shadow", "limit/rtcOccluded16", [this, &cube] {
     return millisecondsOf([&] { computeTruth(session_.tracer(), cube.light(), cube.receivers()); });
   });
 }

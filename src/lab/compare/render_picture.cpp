@@ -32,7 +32,7 @@ ImageF oneChannel(const Subject& subject, const std::vector<float>& values) {
 }
 
 RenderedPicture beauty(const Subject& subject) {
-  const ImageF radiance = subject.lit.radiance(subject.visibility());
+  const ImageF radiance = subject.lit.picture(subject.method, subject.filter);
   return {toSrgb8(radiance), radiance, {"R", "G", "B"}, {}};
 }
 
