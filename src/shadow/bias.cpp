@@ -76,7 +76,7 @@ int BiasChoice::parse(const std::string& text) const {
     if (text == values[i]) return numbers[i];
     choices += (choices.empty() ? "" : ", ") + std::string(values[i]);
   }
-  throw UsageError(fmt::format("{} {}: choose from {}", flag(), text, choices));
+  throw UsageError(fmt::format("{} {}: {}", flag(), text, chooseFrom(text, choices)));
 }
 
 BiasParams defaultChoices() {
