@@ -5,7 +5,6 @@
 #include "shadow/user_bias.h"
 
 #include <array>
-#include <ranges>
 
 namespace gnomon {
 
@@ -157,19 +156,20 @@ void FramePass::record(gpu::Commands& commands, const SceneBuffers& scene, const
   recordDepth(commands, scene, shade.camera);
   commands.barrier("the camera's depths are written -> fragments are tested against them");
   commands.beginRendering({.colors = {{.image = &radiance_, .clear = VkClearColorValue{}}}, .depth = &depth_});
-  for (const Group& group : kGroups | std::views::reverse) {
+  for (auto group = kGroups.rbegin(); group != kGroups.rend(); ++group) {
     const gpu::GraphicsProgram* bound = nullptr;
-    for (const Draw& draw : scene.draws | std::views::reverse) {
-      if (!group.holds(draw)) continue;
+    for (auto next = scene.draws.rbegin(); next != scene.draws.rend(); ++next) {
+      const Draw& draw = *next;
+      if (!group->holds(draw)) continue;
       const FramePush push{draw.worldFromMesh,    draw.material.baseColor,
                            draw.material.texture, draw.material.alphaCutoff,
                            filter.params,         2 * draw.firstIndex + draw.indexCount - 1};
       const gpu::GraphicsProgram& wanted =
           program({method.id, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0, method.channels, filter.id,
-                   filter.tapCount, draw.material.texture >= 0 ? 1 : 0, group.masked ? 1 : 0, method.user});
+                   filter.tapCount, draw.material.texture >= 0 ? 1 : 0, group->masked ? 1 : 0, method.user});
       if (bound != &wanted) {
         commands.bind(wanted, gpu::asPush(push), bindings);
-        group.setCulling(commands);
+        group->setCulling(commands);
         bound = &wanted;
       } else {
         commands.push(wanted, gpu::asPush(push));
