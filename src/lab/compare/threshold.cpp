@@ -89,7 +89,7 @@ void checkMeansARow(const Threshold& threshold, const CompareOptions& options) {
     }
   }
   std::ranges::sort(biases);
-  biases.erase(std::ranges::unique(biases).begin(), biases.end());
+  biases.erase(std::unique(biases.begin(), biases.end()), biases.end());
   checkIsOneOf(threshold, "map", threshold.map, maps);
   checkIsOneOf(threshold, "bias", threshold.bias, biases);
   if (!meansOne)
