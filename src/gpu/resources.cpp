@@ -33,8 +33,8 @@ bool isOutOfMemory(VkResult result) {
 
 WorldError outOfMemory(const Device& device, const char* name, VkDeviceSize bytes) {
   return WorldError(fmt::format(
-      "'{}' needs {:.1f} MiB, which '{}' does not have free; choose smaller maps or images, or fewer of them", name,
-      mebibytes(bytes), device.info().name));
+      "'{}' needs {:.1f} MiB of memory, which '{}' does not have free; choose smaller maps or images, or fewer of them",
+      name, mebibytes(bytes), device.info().name));
 }
 
 void checkMade(const Device& device, VkResult result, const char* call, const char* name, VkDeviceSize bytes) {
