@@ -153,7 +153,7 @@ TEST_F(ResourcesTest, MemoryThatRunsOutIsReportedByNameAndTheNextSmallerOneFits)
   ASSERT_EQ(::setrlimit(RLIMIT_AS, &capped), 0);
   const BufferDesc large{.name = "index list", .size = 1u << 30, .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT};
   const std::string message = refusal([&] { Buffer(device(), large); });
-  EXPECT_TRUE(message.starts_with("'index list' needs 1024.0 MiB, which")) << message;
+  EXPECT_TRUE(message.starts_with("'index list' needs 1024.0 MiB of memory, which")) << message;
   EXPECT_EQ(Buffer(device(), {.name = "small", .size = 1u << 20}).size(), 1u << 20);
   ASSERT_EQ(::setrlimit(RLIMIT_AS, &before), 0);
   EXPECT_EQ(device().takeValidationMessages(), std::vector<std::string>{"VK_ERROR_OUT_OF_DEVICE_MEMORY"});
