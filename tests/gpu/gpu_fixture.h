@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -41,6 +43,16 @@ class GpuTest : public ::testing::Test {
   // In ulps, for what STYLE calls bit-exact on lavapipe; other devices may fuse multiply and add.
   int exactTolerance() const { return isLavapipe() ? 0 : 4; }
 
+  // In texels, by how much a corner may have moved, in x and in y, when depth is interpolated: devices draw triangles
+  // whose corners stand on a grid of 1/256. lavapipe covers texels by that grid too, but keeps depth on the plane.
+  double cornerGrid() const { return isLavapipe() ? 0.0 : 1.0 / 256.0; }
+
+  // How far two numbers are apart that are equal to the bit on lavapipe: there in ulps, so that any difference counts;
+  // elsewhere in roundings (2^-24) of the larger of them or 1, since fused products leave another rest of large terms.
+  int64_t apart(float a, float b) const;
+  // What `apart` may be.
+  int64_t apartAtMost() const { return isLavapipe() ? 0 : 256; }
+
  private:
   std::vector<std::string> messages_;
   std::unique_ptr<Device> device_;
@@ -55,6 +67,12 @@ inline int64_t ulpDistance(float a, float b) {
   };
   const int64_t distance = ordered(a) - ordered(b);
   return distance < 0 ? -distance : distance;
+}
+
+inline int64_t GpuTest::apart(float a, float b) const {
+  if (isLavapipe() || !std::isfinite(a) || !std::isfinite(b)) return ulpDistance(a, b);
+  const double scale = std::max({1.0, std::abs(double(a)), std::abs(double(b))});
+  return static_cast<int64_t>(std::abs(double(a) - double(b)) / scale * 16777216.0);
 }
 
 // A shader beside the test's source, as "tests/<name>"; it may include any .glsl beside it, and kernel.glsl.

@@ -95,7 +95,7 @@ TEST_F(Witness, WalksOnTheGpuAsOnTheCpu) {
         const Occluders& drawn = map.lit.occluders(method.bias->channels);
         const test::HostTables host(map.seen.scene(), map.seen.buffers(), map.lit.fitted(), drawn.downloadIds(device()),
                                     drawn.downloadDepth(device()));
-        size_t asked = 0, different = 0, steps = 0;
+        size_t asked = 0, different = 0, otherVerdicts = 0, steps = 0;
         for (size_t i = 0; i < pixels.size(); ++i) {
           const std::optional<glsl::Receiver> receiver = receiverOf(map.seen, map.lit, i);
           if (!receiver || (pixels[i].flags & glsl::kPixelCovered) == 0) continue;
@@ -104,6 +104,7 @@ TEST_F(Witness, WalksOnTheGpuAsOnTheCpu) {
               shape, host.tables(), reach, *receiver, receiver->posL, false, glsl::mapProject(shape, receiver->posL));
           ++asked;
           steps += verdict.tally.steps & 4095u;
+          otherVerdicts += verdict.lit != ((pixels[i].flags & glsl::kPixelLit) != 0) ? 1 : 0;
           different += verdict.lit != ((pixels[i].flags & glsl::kPixelLit) != 0) ||
                                glsl::packTexel(verdict.slice, verdict.texel) != pixels[i].texel ||
                                verdict.tally.ends != pixels[i].walkEnds || verdict.tally.steps != pixels[i].walkSteps
@@ -113,7 +114,9 @@ TEST_F(Witness, WalksOnTheGpuAsOnTheCpu) {
         const std::string what = std::string(scene) + ", " + kind.label;
         EXPECT_GT(asked, pixels.size() / 8) << what;
         EXPECT_GT(steps, 100u) << what;
-        EXPECT_LE(different, isLavapipe() ? 0 : asked / 100) << what << ", of " << asked;
+        // Elsewhere the last bits choose another texel, and so another walk to the same verdict.
+        EXPECT_LE(different, isLavapipe() ? 0 : asked / 20) << what << ", of " << asked;
+        EXPECT_LE(otherVerdicts, isLavapipe() ? 0 : asked / 500) << what << ", of " << asked;
       }
     }
   }

@@ -142,7 +142,10 @@ TEST_F(CubeMapOnTheGpu, AMillionRoundTripsEqualTheCpuBitForBit) {
         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     const auto answers = gpu::runKernel<RoundTripQuery, RoundTrip>(
         device(), GNOMON_TEST_SHADER("evaluate_round_trip.comp.glsl"), queries, {{kBindMap, map}});
-    EXPECT_LE(test::worstUlps(answers, queries, fitted.map), exactTolerance() == 0 ? 0 : 1 << 12);
+    const test::RoundTripDifference difference =
+        test::compareRoundTrips(answers, queries, fitted.map, [&](float a, float b) { return apart(a, b); });
+    EXPECT_LE(difference.worst, apartAtMost());
+    EXPECT_LE(difference.elsewhere, isLavapipe() ? 0 : queries.size() / 100000);  // on a face's or a hemisphere's rim
   }
 }
 

@@ -76,7 +76,8 @@ Named nameTexels(const Tracer& tracer, const SceneBuffers& buffers, const Fitted
 }
 
 // As many as 1 in `most` texels may lie on an edge of triangles within the rasterizer's grid.
-void expectNamed(const Named& named, size_t texels, bool straight, const std::string& what) {
+// Where surfaces cross, depths decide, which a GPU interpolates between corners moved to that grid.
+void expectNamed(const Named& named, size_t texels, bool straight, bool movesCorners, const std::string& what) {
   EXPECT_GT(named.drawn, texels / 16) << what;
   if (straight) {  // a straight piece of an arc is off by up to half a texel: 4% of atrium's texels, 10% of factory's
     EXPECT_LT(named.others, named.drawn / 8) << what;
@@ -84,7 +85,7 @@ void expectNamed(const Named& named, size_t texels, bool straight, const std::st
   }
   EXPECT_LT(named.others, named.drawn / 300) << what;
   // A corner of a silhouette may lie between two of those rays.
-  EXPECT_LE(named.others - named.atEdges, named.drawn / 2000) << what;
+  EXPECT_LE(named.others - named.atEdges, named.drawn / (movesCorners ? 200 : 2000)) << what;
 }
 
 TEST_F(DrawnTriangle, IsTheFirstThatTheTexelsRayMeets) {
@@ -94,7 +95,7 @@ TEST_F(DrawnTriangle, IsTheFirstThatTheTexelsRayMeets) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 128, kind.options);
       const test::Slices slices = test::drawSlices(device(), world, fitted, CullMode::None, glsl::kChannelIds);
       expectNamed(nameTexels(*world.tracer, world.buffers, fitted, LightRays(world.scene, world.light), slices.ids),
-                  slices.ids.size(), kind.straight, std::string(scene) + ", " + kind.label);
+                  slices.ids.size(), kind.straight, cornerGrid() > 0.0, std::string(scene) + ", " + kind.label);
     }
   }
 }
@@ -115,7 +116,7 @@ TEST_F(DrawnTriangle, OfPlanarMapsToo) {
       commands.submitAndWait();
       const std::vector<uint32_t> ids = image.downloadIds(device());
       expectNamed(nameTexels(*r.tracer, r.buffers, fitted, LightRays(r.scene, r.light), ids), ids.size(), false,
-                  std::string(scene) + ", " + kind.label);
+                  cornerGrid() > 0.0, std::string(scene) + ", " + kind.label);
     }
   }
 }

@@ -54,10 +54,11 @@ class HardPlaces : public gpu::GpuTest {
   // Off by more than a ten-thousandth of the distance.
   TexelErrors errorsOf(const World& world, const FittedMap& fitted) {
     const Slices layers = test::drawSlices(device(), world, fitted, CullMode::None);
-    return test::compareWithRays(world, fitted, layers.z1,
-                                 {.edgeReach = 0.01, .tolerance = [&](int, glm::ivec2, const SurfaceHit& hit) {
-                                    return 1e-4 * (hit.distance + fitted.zNear);
-                                  }});
+    return test::compareWithRays(
+        world, fitted, layers.z1,
+        {.edgeReach = 0.01, .tolerance = [&](int slice, glm::ivec2 texel, const SurfaceHit& hit) {
+           return 1e-4 * (hit.distance + fitted.zNear) + test::distanceChange(fitted, slice, texel, hit, cornerGrid());
+         }});
   }
   std::vector<FittedMap> mapsOf(const World& world) {
     return {
@@ -161,7 +162,8 @@ TEST_F(HardPlaces, OnASurfaceTheRestIsRight) {
         for (int x = 0; x < fitted.map.width; ++x) {
           if (!glsl::mapHoldsTexel(fitted.map, slice, {x, y})) continue;
           const RayD ray = test::rayThrough(fitted, slice, glm::dvec2(x, y) + 0.5);
-          if (std::abs(ray.dir.y) < 0.02) continue;  // nearly in the plane
+          // Nearly in the plane; a GPU's grid makes a sliver of the face there, a texel wide.
+          if (std::abs(ray.dir.y) < (isLavapipe() ? 0.02 : 0.05)) continue;
           const float stored = layers.z1[(static_cast<size_t>(slice) * fitted.map.width + y) * fitted.map.width + x];
           if (ray.dir.y < 0.0) {
             ++empty;

