@@ -112,8 +112,8 @@ TEST_F(ExactnessTest, TranscendentalsStayWithinTheirMeasuredError) {
     absolute(worst.logarithm, outputs[i].logarithm, expected.logarithm);
     relative(worst.power, outputs[i].power, expected.power);
   }
-  EXPECT_LE(worst.sine, 1.2e-7f);
-  EXPECT_LE(worst.cosine, 1.2e-7f);
+  EXPECT_LE(worst.sine, isLavapipe() ? 1.2e-7f : 2e-6f);  // 1.2e-6 on an H200; Vulkan allows 2^-11
+  EXPECT_LE(worst.cosine, isLavapipe() ? 1.2e-7f : 2e-6f);
   EXPECT_LE(worst.arcTangent, 4e-6f);
   EXPECT_LE(worst.arcCosine, 2e-4f);
   EXPECT_LE(worst.exponential, 2e-5f);

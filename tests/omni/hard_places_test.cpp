@@ -156,7 +156,7 @@ TEST_F(HardPlaces, OnASurfaceTheRestIsRight) {
   const World world = test::openWorld(device(), box({-1, -2, -3}, {4, 3, 2}), glm::dvec3(0.5, -2.0, -0.4));
   for (const FittedMap& fitted : mapsOf(world)) {
     const Slices layers = test::drawSlices(device(), world, fitted, CullMode::None);
-    size_t empty = 0;
+    size_t empty = 0, texels = 0, wrong = 0;
     for (int slice = 0; slice < fitted.map.sliceCount; ++slice) {
       for (int y = 0; y < fitted.map.width; ++y) {
         for (int x = 0; x < fitted.map.width; ++x) {
@@ -165,21 +165,27 @@ TEST_F(HardPlaces, OnASurfaceTheRestIsRight) {
           // Nearly in the plane; a GPU's grid makes a sliver of the face there, a texel wide.
           if (std::abs(ray.dir.y) < (isLavapipe() ? 0.02 : 0.05)) continue;
           const float stored = layers.z1[(static_cast<size_t>(slice) * fitted.map.width + y) * fitted.map.width + x];
+          ++texels;
           if (ray.dir.y < 0.0) {
             ++empty;
-            ASSERT_EQ(stored, 1.0f) << fitted.map.kind;
+            wrong += stored != 1.0f ? 1 : 0;
             continue;
           }
           const auto hit = world.tracer->firstHit({ray.origin + ray.dir * 0.01, ray.dir});
           ASSERT_TRUE(hit);
           const glsl::Ray rayL = glsl::mapTexelRay(fitted.map, slice, glsl::mapTexelCenter(fitted.map, {x, y}));
-          ASSERT_NEAR(glsl::mapDistance(fitted.map, slice, rayL, stored), hit->distance + 0.01,
-                      // The near end stands at 1e-5 of the diagonal: hyperbolic depth leaves 2^-24 d^2 / near.
-                      fitted.map.kind == glsl::kMapCube ? 6e-8 * 60.0 / fitted.map.zNear : 2e-3)
-              << fitted.map.kind;
+          // The near end stands at 1e-5 of the diagonal: hyperbolic depth leaves 2^-24 d^2 / near.
+          const double tolerance = fitted.map.kind == glsl::kMapCube ? 6e-8 * 60.0 / fitted.map.zNear : 2e-3;
+          const double distance = glsl::mapDistance(fitted.map, slice, rayL, stored);
+          wrong += std::abs(distance - (hit->distance + 0.01)) <=
+                           tolerance + test::distanceChange(fitted, slice, {x, y}, *hit, 16.0 * cornerGrid())
+                       ? 0
+                       : 1;
         }
       }
     }
+    // On its grid a GPU draws slivers of the face, whose depth is the near end's.
+    EXPECT_LE(wrong, isLavapipe() ? 0 : texels / 1000) << fitted.map.kind;
     EXPECT_GT(empty, 5000u);
   }
 }
