@@ -45,14 +45,18 @@ GNOMON_FN vec3 extinction(Medium medium) { return medium.sigmaS + medium.sigmaA;
 // Of light over `depth`: metres where the medium is homogeneous, else metres times density.
 GNOMON_FN vec3 transmittance(Medium medium, float depth) { return exp(extinction(medium) * -depth); }
 
-// What a metre of a view ray at density 1 scatters towards the eye, of a light of 1 cd with nothing between,
-// attenuated by `depth` in all.
+// What a metre of a view ray at density 1 scatters towards the eye, of a light of 1 cd a metre away with nothing
+// between, attenuated by `depth` in all.
 // `fromLight`: from the light to the point, metres. `dir`: the view ray's, unit.
+GNOMON_FN vec3 scatteredAtUnitDistance(Medium medium, vec3 fromLight, vec3 dir, float depth) {
+  float cosTurn = -dot(fromLight, dir) / sqrt(max(dot(fromLight, fromLight), 1e-12f));
+  return medium.sigmaS * transmittance(medium, depth) * phaseFunction(medium.g, cosTurn);
+}
+
+// The same of the light where it is. A sample that falls into the lamp itself, nearer than a micrometre, is as bright
+// as one there.
 GNOMON_FN vec3 scatteredPerMetre(Medium medium, vec3 fromLight, vec3 dir, float depth) {
-  // A sample that falls into the lamp itself, nearer than a micrometre, is as bright as one there.
-  float r2 = max(dot(fromLight, fromLight), 1e-12f);
-  float cosTurn = -dot(fromLight, dir) / sqrt(r2);
-  return medium.sigmaS * transmittance(medium, depth) * (phaseFunction(medium.g, cosTurn) / r2);
+  return scatteredAtUnitDistance(medium, fromLight, dir, depth) * (1.0f / max(dot(fromLight, fromLight), 1e-12f));
 }
 
 // phi of the point `s` metres from the eye on the view ray of alpha.

@@ -1,7 +1,8 @@
-// Light scattered towards the eye by a medium of varying density: samples at equal distances along what of the view ray
-// lies in the grid, attenuated towards the eye by what was passed so far and towards the light by the table, with
-// visibility from the bits of a shadow volume or from a shadow map.
+// Light scattered towards the eye by a medium of varying density: samples along what of the view ray lies in the grid
+// (shared/march_steps.glsl), attenuated towards the eye by what was passed so far and towards the light by the table,
+// with visibility from the bits of a shadow volume or from a shadow map.
 #include "shared/map.glsl"
+#include "shared/march_steps.glsl"
 #include "shared/media_pass.glsl"
 #include "shared/shade.glsl"
 #include "shared/volume.glsl"
@@ -59,21 +60,27 @@ void main() {
   vec3 eyeI = indexFromWorld(density, media.camera.eyeW);
   vec3 dirI = indexDirection(density, ray.dirW);
 
-  float stepLength = max(within.y - within.x, 0.0f) / float(push.steps);
+  vec3 toLight = push.lightW - media.camera.eyeW;
+  float foot = dot(toLight, ray.dirW);
+  float aside = max(length(toLight - ray.dirW * foot), 1e-6f);  // of the lamp itself a micrometre
+  MarchSteps march = marchSteps(within.x, within.y, foot, aside, push.steps);
   float passed = 0.0f;  // metres times density
   vec3 sum = vec3(0.0f);
-  for (int n = 0; n < push.steps && stepLength > 0.0f; ++n) {
-    float s = within.x + (float(n) + 0.5f) * stepLength;
+  float begin = within.x;
+  for (int n = 0; n < push.steps && within.x < within.y; ++n) {
+    float end = nextStepEnd(march);
+    float s = foot + middleByAngle(begin - foot, end - foot, aside);
     float here = densityAtIndex(eyeI + dirI * s);
     vec3 fromLight = media.camera.eyeW + ray.dirW * s - push.lightW;
     bool lit = kMapKind == kMapEpipolar ? isBitLit(map.epipolar, row, s) : isMapLit(map, eyeL + dirL * s);
     lit = lit && (push.coneCos <= -1.0f || dot(fromLight, push.coneAxisW) >= push.coneCos * length(fromLight));
-    float along = here * stepLength;
+    float along = here * (end - begin);
     if (lit && here > 0.0f)
-      sum += scatteredPerMetre(media.medium, fromLight, ray.dirW,
-                               passed + 0.5f * along + depthFromLight(densityPush.reach, fromLight)) *
-             along;
+      sum += scatteredAtUnitDistance(media.medium, fromLight, ray.dirW,
+                                     passed + 0.5f * along + depthFromLight(densityPush.reach, fromLight)) *
+             (here * inverseSquareBetween(begin - foot, end - foot, aside));
     passed += along;
+    begin = end;
   }
   eyeDepth[pixel.y * media.camera.width + pixel.x] = passed;
   scatter(pixel, sum * push.intensity);
