@@ -17,7 +17,9 @@ void main() {
   float distance_ = length(fromLight);
   float stored = texture(distances, fromLight).x * plain.zFar;
   float lit = distance_ <= stored + plain.offset ? 1.0f : 0.0f;
-  float diffuse = max(dot(normalize(normalW), -fromLight / distance_), 0.0f) / (distance_ * distance_);
+  vec3 normal = normalize(normalW);
+  if (normalW == vec3(0.0f)) normal = normalize(cross(dFdx(posW), dFdy(posW)));  // a mesh without normals
+  float diffuse = max(dot(normal, -fromLight / distance_), 0.0f) / (distance_ * distance_);
   vec3 albedo = push.baseColor.xyz * texture(color, uv).xyz;
   radiance = vec4(albedo * (plain.lightColor * (diffuse * lit) + plain.ambient), 1.0f);
 }

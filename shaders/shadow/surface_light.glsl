@@ -33,7 +33,7 @@ struct SurfaceLight {
 // What a point of a surface knows of it; vectors of any length but coneAxis, all in one frame.
 struct SurfaceView {
   vec3 planeNormal;
-  vec3 smoothNormal;  // interpolated; for looks only, shadows know the triangle's own
+  vec3 smoothNormal;  // interpolated, for looks only, since shadows know the triangle's own; zero: the triangle's own
   vec3 toEye;
   vec3 toLight;       // its length counts where the light is positional
   vec3 coneAxis;
@@ -41,7 +41,7 @@ struct SurfaceView {
 
 // Squared lengths instead of unit vectors: two roots and a quotient in all.
 SurfaceLight lightSurface(SurfaceView seen, vec3 albedo, float visible) {
-  vec3 normal = seen.smoothNormal;
+  vec3 normal = seen.smoothNormal == vec3(0.0f) ? seen.planeNormal : seen.smoothNormal;
   float toEye = dot(normal, seen.toEye);
   float toLight = dot(normal, seen.toLight);
   // Turned to the eye's side, as the triangle is; where the two disagree about the side, it stays.

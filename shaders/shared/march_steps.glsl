@@ -1,7 +1,7 @@
-// How a view ray is cut into steps where a medium's density varies. Half of the cuts stand at equal distances, which find
-// what the density does; half at equal angles seen from the light, where 1 / r^2 is flat: equiangular sampling, Kulla and
-// Fajardo, "Importance Sampling Techniques for Path Tracing in Participating Media", EGSR 2012. No step is longer than
-// the ray over half their number.
+// How a view ray is cut into steps where a medium's density varies. Half of the cuts stand at equal distances, which
+// find what the density does; half at equal angles seen from the light, where 1 / r^2 is flat: equiangular sampling,
+// Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in Participating Media", EGSR 2012. No step is
+// longer than the ray over half their number.
 #ifndef GNOMON_MARCH_STEPS_GLSL
 #define GNOMON_MARCH_STEPS_GLSL
 
@@ -51,16 +51,16 @@ GNOMON_FN float nextStepEnd(GNOMON_INOUT(MarchSteps) march) {
   return march.nextEqual > march.equal ? march.end : byDistance;
 }
 
-// The distance, from the foot, that halves the angle under which the light sees the stretch from `a` to `b`, metres from
-// the foot; `aside` > 0.
+// The distance, from the foot, that halves the angle under which the light sees the stretch from `a` to `b`, metres
+// from the foot; `aside` > 0.
 GNOMON_FN float middleByAngle(float a, float b, float aside) {
   float ra = sqrt(aside * aside + a * a);
   float rb = sqrt(aside * aside + b * b);
   return (a * rb + b * ra) / (ra + rb);
 }
 
-// The integral of 1 / r^2 over that stretch, 1/m: its angle over `aside`. Where the angle is small, its sine is the angle,
-// to a 10^-7th.
+// The integral of 1 / r^2 over that stretch, 1/m: its angle over `aside`. Where the angle is small, its tangent is the
+// angle, to a third of 10^-6.
 GNOMON_FN float inverseSquareBetween(float a, float b, float aside) {
   float across = aside * (b - a);
   float along = aside * aside + a * b;

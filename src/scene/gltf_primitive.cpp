@@ -102,19 +102,6 @@ glm::vec3 unitOrUp(const glm::dvec3& direction) {
   return size > 0.0 && std::isfinite(size) ? glm::vec3(direction / size) : glm::vec3(0.0f, 1.0f, 0.0f);
 }
 
-void makeFlat(Mesh& mesh) {
-  Mesh flat;
-  flat.name = std::move(mesh.name);
-  flat.indices.resize(mesh.indices.size());
-  for (size_t i = 0; i < mesh.indices.size(); ++i) {
-    flat.positions.push_back(mesh.positions[mesh.indices[i]]);
-    flat.uvs.push_back(mesh.uvs[mesh.indices[i]]);
-    flat.normals.push_back(unitOrUp(faceNormal(mesh, i / 3 * 3)));
-    flat.indices[i] = static_cast<uint32_t>(i);
-  }
-  mesh = std::move(flat);
-}
-
 // Normals that are unit to within rounding stay as they are, so that a saved scene loads again equal. Those
 // without a direction get the sum of their triangles' normals.
 void makeUnit(Mesh& mesh) {
@@ -203,8 +190,7 @@ std::optional<Mesh> loadPrimitive(GltfDocument& document, const tinygltf::Primit
       attributes.draco() ? attributes.draco()->corners : readCorners(document, primitive, vertexCount, where);
   mesh.indices = attributes.draco() ? std::move(corners) : trianglesOf(document, std::move(corners), mode, where);
   const std::optional<AccessorView> normals = attributes.find("NORMAL", 3, vertexCount, "normal");
-  // Compacting takes a copy of the indices; flat normals unfold every corner to a vertex.
-  document.spend(mesh.indices.size() * (kIndexBytes + (normals ? 0 : kVertexBytes)));
+  document.spend(mesh.indices.size() * kIndexBytes);  // compacting takes a copy of them
   const std::vector<uint32_t> used = compactVertices(mesh.indices);
   document.spend(used.size() * kVertexBytes);
 
@@ -223,10 +209,7 @@ std::optional<Mesh> loadPrimitive(GltfDocument& document, const tinygltf::Primit
         document.refuse(where + " has a texture transform that leads to infinity", kRemedy);
     }
   }
-  if (!normals) {
-    makeFlat(mesh);
-    return mesh;
-  }
+  if (!normals) return mesh;
   mesh.normals.reserve(used.size());
   for (uint32_t i : used) mesh.normals.emplace_back(normals->floats(i));
   makeUnit(mesh);

@@ -20,8 +20,8 @@ struct UvSource {
 };
 
 // Triangles, strips and fans become indexed triangles; vertices that no triangle uses are left out; where the file has
-// no normals they are flat, as glTF prescribes, with three vertices a triangle. Nothing for points and lines. `where`
-// names the primitive in messages. Mesh space; `closed` and `material` are left to the caller.
+// no normals there are none, and triangles are flat, as glTF prescribes. Nothing for points and lines. `where` names
+// the primitive in messages. Mesh space; `closed` and `material` are left to the caller.
 std::optional<Mesh> loadPrimitive(GltfDocument& document, const tinygltf::Primitive& primitive,
                                   const UvSource& uvSource, const std::string& where);
 

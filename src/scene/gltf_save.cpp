@@ -64,7 +64,8 @@ void addMeshes(tinygltf::Model& model, const Scene& scene) {
     primitive.material = source.material;
     primitive.attributes["POSITION"] = addAccessor(model, source.positions, kVertices, kFloat, TINYGLTF_TYPE_VEC3);
     addBounds(model.accessors.back(), source.positions);
-    primitive.attributes["NORMAL"] = addAccessor(model, source.normals, kVertices, kFloat, TINYGLTF_TYPE_VEC3);
+    if (!source.normals.empty())
+      primitive.attributes["NORMAL"] = addAccessor(model, source.normals, kVertices, kFloat, TINYGLTF_TYPE_VEC3);
     primitive.attributes["TEXCOORD_0"] = addAccessor(model, source.uvs, kVertices, kFloat, TINYGLTF_TYPE_VEC2);
     primitive.indices = addAccessor(model, source.indices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR);

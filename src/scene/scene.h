@@ -18,7 +18,7 @@ namespace gnomon {
 struct Mesh {
   std::string name;
   std::vector<glm::vec3> positions;  // metres, mesh space
-  std::vector<glm::vec3> normals;    // unit, mesh space, for shading only; one a vertex
+  std::vector<glm::vec3> normals;    // unit, mesh space, for shading only; one a vertex, or none: triangles are flat
   std::vector<glm::vec2> uvs;        // one a vertex; zero where the file has none
   std::vector<uint32_t> indices;     // three a triangle, counter-clockwise seen from the front
   int material = 0;

@@ -1,9 +1,12 @@
 #include "scene/scene_buffers.h"
 
+#include "base/error.h"
 #include "scene/mesh_links.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace gnomon {
 
@@ -49,6 +52,23 @@ Bounds transformed(const glm::mat4& worldFromMesh, const Bounds& bounds) {
   return {.lower = center - reach, .upper = center + reach};
 }
 
+// Before anything is uploaded, since it takes a while.
+void checkSize(const gpu::Device& device, const Scene& scene) {
+  uint64_t vertices = 0, triangles = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    vertices += mesh.positions.size();
+    triangles += mesh.indices.size() / 3;
+  }
+  const uint64_t largest = sizeof(glm::vec3) * std::max(vertices, triangles);  // a position; a triangle's corners
+  const uint64_t allowed = device.info().maxStorageBufferBytes;
+  if (largest <= allowed) return;
+  throw WorldError(
+      fmt::format("{} triangles with {} vertices need a buffer of {:.0f} MiB, and the largest of '{}' has {:.0f} MiB; "
+                  "use fewer triangles, or meshes that are placed more than once",
+                  triangles, vertices, static_cast<double>(largest) / (1 << 20), device.info().name,
+                  static_cast<double>(allowed) / (1 << 20)));
+}
+
 template <typename T>
 void append(std::vector<T>& all, const std::vector<T>& some) {
   all.insert(all.end(), some.begin(), some.end());
@@ -57,6 +77,7 @@ void append(std::vector<T>& all, const std::vector<T>& some) {
 }  // namespace
 
 SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
+  checkSize(device, scene);
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec2> uvs;
   std::vector<uint32_t> indices;
@@ -69,6 +90,7 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
     append(positions, mesh.positions);
     parts.push_back(partBounds(mesh));
     append(normals, mesh.normals);
+    normals.resize(positions.size(), glm::vec3(0.0f));  // a flat mesh's: shaders take the triangle's
     append(uvs, mesh.uvs);
   }
 

@@ -22,7 +22,9 @@ void require(bool holds, const char* what) {
 void checkScene(const gnomon::Scene& scene) {
   require(gnomon::triangleCount(scene) > 0, "it has triangles");
   for (const gnomon::Mesh& mesh : scene.meshes) {
-    require(mesh.normals.size() == mesh.positions.size() && mesh.uvs.size() == mesh.positions.size(), "sizes agree");
+    require((mesh.normals.empty() || mesh.normals.size() == mesh.positions.size()) &&
+                mesh.uvs.size() == mesh.positions.size(),
+            "sizes agree");
     require(mesh.indices.size() % 3 == 0, "whole triangles");
     require(mesh.material >= 0 && mesh.material < static_cast<int>(scene.materials.size()), "material in range");
     for (uint32_t index : mesh.indices) require(index < mesh.positions.size(), "index in range");

@@ -1,5 +1,6 @@
 // The radiance pass: a square whose every pixel's colour is known, with and without texture and matrix. Each of the
 // four is a program of its own.
+#include "base/error.h"
 #include "shadow/visibility_pass.h"
 #include "tests/gpu_fixture.h"
 
@@ -58,14 +59,16 @@ Scene square(bool textured, const glm::mat4& worldFromMesh) {
   return scene;
 }
 
-TEST_F(RadiancePassTest, TextureAndMatrixAreHonouredWhereThereAreAny) {
+TEST_F(RadiancePassTest, TextureMatrixAndNormalsAreHonouredWhereThereAreAny) {
   glm::mat4 sheared(1.0f);
   sheared[0] = {0.0f, 2.0f, 0.5f, 0.0f};
   sheared[1] = {-1.0f, 0.5f, 0.0f, 0.0f};
   sheared[3] = {3.0f, -2.0f, 1.0f, 1.0f};
   for (const bool textured : {false, true}) {
-    for (const glm::mat4& worldFromMesh : {glm::mat4(1.0f), sheared}) {
-      const Scene scene = square(textured, worldFromMesh);
+    for (const auto& [worldFromMesh, normals] :
+         {std::pair(glm::mat4(1.0f), true), std::pair(sheared, true), std::pair(sheared, false)}) {
+      Scene scene = square(textured, worldFromMesh);
+      if (!normals) scene.meshes.front().normals.clear();
       const glsl::CameraView view = cameraView(scene.cameras.front(), kSide, kSide);
       const std::vector<glm::vec3> seen = shade(scene);
       for (int y = 0; y < kSide; ++y) {
@@ -76,10 +79,24 @@ TEST_F(RadiancePassTest, TextureAndMatrixAreHonouredWhereThereAreAny) {
           const glm::vec3 difference = glm::abs(seen[static_cast<size_t>(y * kSide + x)] - expected);
           ASSERT_LT(std::max({difference.x, difference.y, difference.z}), 1e-5f)
               << (textured ? "textured " : "plain ") << (worldFromMesh == glm::mat4(1.0f) ? "" : "placed by a matrix ")
-              << x << " " << y;
+              << (normals ? "" : "without normals ") << x << " " << y;
         }
       }
     }
+  }
+}
+
+TEST_F(RadiancePassTest, ASceneOfTooManyTrianglesIsOneLine) {
+  const uint64_t allowed = device().info().maxStorageBufferBytes;
+  if (allowed > (256u << 20)) GTEST_SKIP() << "a scene that this device refuses is too large for a test";
+  Scene scene = square(false, glm::mat4(1.0f));
+  scene.meshes.front().indices.resize(3 * (allowed / sizeof(glm::uvec3) + 1), 0);
+  try {
+    createSceneBuffers(device(), scene);
+    FAIL();
+  } catch (const WorldError& error) {
+    EXPECT_NE(std::string(error.what()).find("triangles with 4 vertices need a buffer of"), std::string::npos)
+        << error.what();
   }
 }
 
