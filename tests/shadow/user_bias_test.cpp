@@ -7,6 +7,8 @@
 #include "shadow/user_bias_check.h"
 #include "tests/base/temporary_folder.h"
 
+#include <fmt/format.h>
+
 namespace gnomon {
 namespace {
 
@@ -118,6 +120,16 @@ TEST_F(UserBiasTest, WhatWouldCrashTheCompilerOrNeverEndIsRefused) {
                   "mine.glsl: an array or structure in it has more than 4096 values");
   expectComplaint("float g(float x);\nfloat f(float x) {\n return g(x); }\nfloat g(float x) { return f(x); }\n",
                   "if (f(1.0f) > 0.0f) return true;", "calls itself");
+  // Each calls the one before twice: 2^16 sines in a page, 2^12 of which are taken.
+  const auto doubling = [](int functions) {
+    std::string text = "float f0(float x) { return sin(x); }\n";
+    for (int i = 1; i <= functions; ++i)
+      text += fmt::format("float f{}(float x) {{ return f{}(x) + f{}(x + 1.0f); }}\n", i, i - 1, i - 1);
+    return text;
+  };
+  expectComplaint(doubling(16), "if (f16(tap.z1) > 0.0f) return true;",
+                  "mine.glsl: its functions, written out wherever they are called, have ");
+  EXPECT_EQ(complaint(doubling(12), "if (f12(tap.z1) > 0.0f) return true;"), "");
   expectComplaint("\n#define main other\n", "", "mine.glsl:2: 'main' is the shader's");
   expectComplaint("", "int x = 0;\nwhile (true) ++x;", "mine.glsl:3: nothing ends this loop");
   expectComplaint("", "undefined = 3;", "mine.glsl:2: 'undefined'");
