@@ -57,6 +57,7 @@ double nearestOfMesh(const Mesh& mesh, const glm::dmat4& lightFromMesh, double n
 double nearestRadial(const Scene& scene, const glm::dvec3& lightW, double farthest) {
   double nearest = farthest;
   for (const Instance& instance : scene.instances) {
+    if (!instance.casts) continue;
     glm::dmat4 lightFromMesh(instance.worldFromMesh);
     lightFromMesh[3] -= glm::dvec4(lightW, 0.0);
     nearest = nearestOfMesh(scene.meshes[instance.mesh], lightFromMesh, nearest);

@@ -1,6 +1,6 @@
 // A user-defined bias, to be scored beside the built-in ones:
 //
-//   gnomon compare atrium --bias-file samples/my_bias.glsl --tune
+//   gnomon compare atrium --maps spot --bias-file samples/my_bias.glsl --tune
 //
 // The idea: the adaptive bias of Dou et al. is exact on planes and fails at creases and on curved meshes, where the
 // texel saw another plane than the receiver's. Its error there grows with the distance between the texel's ray and the

@@ -282,7 +282,13 @@ void writeTextFile(const fs::path& path, std::string_view text) {
 
 void checkOutput(const fs::path& path) {
   const Target target = targetOf(path);
-  if (target.kind == Kind::StandardOutput) return giveStandardOutputAway();
+  if (target.kind == Kind::StandardOutput) {
+    static bool isTaken = false;
+    if (isTaken)
+      throw UsageError(fmt::format("{}: one file can go to standard output; name another for the rest", path.string()));
+    isTaken = true;
+    return giveStandardOutputAway();
+  }
   if (target.isOld && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) throw writeError(path, errno);
   if (target.kind == Kind::Through) return;
   std::error_code failure;

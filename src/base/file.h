@@ -21,7 +21,8 @@ void writeFile(const std::filesystem::path& path, const std::function<void(std::
 void writeTextFile(const std::filesystem::path& path, std::string_view text);
 
 // Throws WorldError where writing there is bound to fail: a folder that is not there and cannot be made, no permission.
-// For before the work, so that hours of it are not lost; changes nothing.
+// For before the work, so that hours of it are not lost; changes nothing. Throws UsageError where a second file is to
+// go to standard output, where the two could not be told apart.
 void checkOutput(const std::filesystem::path& path);
 
 // Whether it is "-", a device or a pipe, whose name tells nothing of what is to be written.

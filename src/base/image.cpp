@@ -17,8 +17,18 @@ void writePng(const std::filesystem::path& path, const Image8& image) {
   writeTextFile(path, encodePng(image));
 }
 
-void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames) {
-  writeTextFile(path, imageCodec().encodeExr(image, channelNames));
+namespace {
+
+ExrOrigin pictureOrigin{.software = "gnomon", .command = ""};
+
+}  // namespace
+
+void setPictureOrigin(const std::string& software, const std::string& command) {
+  pictureOrigin = {.software = software, .command = command};
+}
+
+void writeExr(const std::filesystem::path& path, const ImageF& image, const ExrChannels& channels) {
+  writeTextFile(path, imageCodec().encodeExr(image, channels, pictureOrigin));
 }
 
 ImageF readImage(const std::filesystem::path& path) {

@@ -33,8 +33,19 @@ using ImageF = Image<float>;
 // 1 (grey), 3 (RGB) or 4 (RGBA) channels, values as they are to be shown. Throws WorldError.
 void writePng(const std::filesystem::path& path, const Image8& image);
 
-// Any number of channels, 32-bit float, names such as {"Y"} or {"R","G","B"}. Throws WorldError.
-void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames);
+// What an EXR's channels are: their names, such as {"Y"} or {"R","G","B"}, and what their numbers count.
+struct ExrChannels {
+  std::vector<std::string> names;
+  std::string units;      // "cd/m^2", "metres"; its attribute gnomon:units
+  bool isColour = false;  // linear, with the primaries of sRGB (ITU-R BT.709), which it says
+};
+
+// What all pictures of this run say of it: attributes Software and gnomon:command. No date: the same command gives the
+// same bytes.
+void setPictureOrigin(const std::string& software, const std::string& command);
+
+// Any number of channels, 32-bit float. Throws WorldError.
+void writeExr(const std::filesystem::path& path, const ImageF& image, const ExrChannels& channels);
 
 // Any file OpenImageIO reads, as float (8-bit files give [0,1], not linearized). Throws WorldError.
 ImageF readImage(const std::filesystem::path& path);

@@ -7,9 +7,14 @@
 
 namespace gnomon {
 
+// As setPictureOrigin has it.
+struct ExrOrigin {
+  std::string software, command;
+};
+
 // As the functions of these names in image.h; encodeExr makes the bytes that writeExr writes.
 struct ImageCodec {
-  std::string (*encodeExr)(const ImageF& image, const std::vector<std::string>& channelNames);
+  std::string (*encodeExr)(const ImageF& image, const ExrChannels& channels, const ExrOrigin& origin);
   ImageF (*readImage)(const std::filesystem::path& path);
   Image8 (*decodeImage)(const uint8_t* bytes, size_t size, const std::string& what);
   std::string (*encodeJpeg)(const Image8& image, int quality);

@@ -24,15 +24,22 @@ std::string encode(const char* name, const OIIO::ImageSpec& spec, OIIO::TypeDesc
   return {memory.buffer().begin(), memory.buffer().end()};
 }
 
-std::string encodeExrBytes(const ImageF& image, const std::vector<std::string>& channelNames) {
-  GNOMON_CHECK_EQ(image.channels, static_cast<int>(channelNames.size()));
+// x and y of red, green, blue and white: ITU-R BT.709, which IEC 61966-2-1 shares.
+constexpr float kBt709[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+
+std::string encodeExrBytes(const ImageF& image, const ExrChannels& channels, const ExrOrigin& origin) {
+  GNOMON_CHECK_EQ(image.channels, static_cast<int>(channels.names.size()));
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
-  spec.channelnames = channelNames;
+  spec.channelnames = channels.names;
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
+  if (channels.isColour) spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kBt709);
+  spec.attribute("gnomon:colour_space", channels.isColour ? "linear, primaries of ITU-R BT.709" : "none: data");
+  if (!channels.units.empty()) spec.attribute("gnomon:units", channels.units);
+  if (!origin.command.empty()) spec.attribute("gnomon:command", origin.command);
   // No wall clock in an output: the same command gives the same bytes.
   spec.attribute("DateTime", "1980:01:01 00:00:00");
-  spec.attribute("Software", "gnomon");
+  spec.attribute("Software", origin.software);
   return encode("memory.exr", spec, OIIO::TypeDesc::FLOAT, image.values.data());
 }
 

@@ -1,9 +1,14 @@
 #pragma once
 // A progress line on stderr if that is a terminal; silent in a pipe and with --quiet.
 
+#include <chrono>
 #include <string>
 
 namespace gnomon {
+
+// "about 40 s left", "about 12 min left", "about 3 h left"; empty before there is anything to judge by. `done` steps of
+// `count` took `seconds`, and those to come are taken to be like them.
+std::string remainingText(double seconds, int done, int count);
 
 class Progress {
  public:
@@ -23,6 +28,7 @@ class Progress {
   int stepCount_ = 0;
   int done_ = 0;
   bool visible_ = false;
+  std::chrono::steady_clock::time_point begun_;
 };
 
 }  // namespace gnomon

@@ -1,6 +1,8 @@
 #include "base/file.h"
 #include "base/terminal.h"
 #include "cli/map_flags.h"
+#include "cli/offers.h"
+#include "cli/option_group.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
@@ -19,6 +21,7 @@ namespace {
 struct BenchFlags {
   SceneFlags scene;
   MapFlags map;  // --map-texels, --cull and those of volumes
+  std::optional<int> mapSide;
   std::string only;
   int repeats = 9;
   bool noGrowth = false;
@@ -36,6 +39,8 @@ int runBenchVerb(const BenchFlags& flags) {
                        .only = flags.only.empty() ? std::vector<std::string>{} : CLI::detail::split(flags.only, ','),
                        .growth = !flags.noGrowth,
                        .mostTriangles = flags.mostTriangles};
+  refuseAllLights(flags.scene, "bench");
+  if (flags.mapSide) options.mapTexels = 6L * *flags.mapSide * *flags.mapSide;
   for (const std::string& file : {flags.json, flags.svg})
     if (!file.empty()) checkOutput(file);
   if (!flags.noStart) options.program = "/proc/self/exe";
@@ -54,9 +59,16 @@ Run addBench(CLI::App* verb) {
   flags->map.mapTexels = 6291456;
   addSceneFlags(*verb, flags->scene);
   verb->get_option("SCENE")->required(false);
-  verb->add_option("--map-texels", flags->map.mapTexels, "texels of each map, all its images together")
-      ->check(CLI::Range(64L, 1L << 32))
-      ->capture_default_str();
+  const OptionGroup group(*verb, "Measurement and output");
+  CLI::Option* texels =
+      verb->add_option("--map-texels", flags->map.mapTexels, "texels of each map, all its images together")
+          ->check(CLI::Range(64L, 1L << 32))
+          ->capture_default_str();
+  verb->add_option(
+          "--map-size", flags->mapSide,
+          "the same as the side of a cube's faces: 6 N x N texels; the growths are measured around it and --size")
+      ->check(CLI::Range(4, 16384))
+      ->excludes(texels);
   addCullFlag(*verb, flags->map);
   addMapOptionFlags(*verb, flags->map, {&kVolumeSize, &kVolumeFit});
   verb->add_option("--repeats", flags->repeats, "rounds; medians are reported")
@@ -70,8 +82,8 @@ Run addBench(CLI::App* verb) {
   verb->add_option("--most-triangles", flags->mostTriangles, "largest scene of the scaling measurement, triangles")
       ->check(CLI::Range(10'000L, 19'000'000L))
       ->capture_default_str();
-  verb->add_option("--json", flags->json, "write the measurements to this JSON file");
-  verb->add_option("--svg", flags->svg, "write the scaling curves to this SVG file");
+  offersFiles(verb->add_option("--json", flags->json, "write the measurements to this JSON file"));
+  offersFiles(verb->add_option("--svg", flags->svg, "write the scaling curves to this SVG file"));
   return [flags] { return runBenchVerb(*flags); };
 }
 

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "base/suggest.h"
+#include "cli/offers.h"
+#include "cli/option_group.h"
 #include "shadow/user_bias_check.h"
 
 #include <algorithm>
@@ -33,6 +35,14 @@ float checkedKnob(const std::string& flag, const Knob& knob, float value) {
     throw UsageError(
         fmt::format("{} {:g} is outside {:g}..{:g} {}", flag, value, knob.lower, knob.upper, unitName(knob.unit)));
   return value;
+}
+
+// And all.
+template <typename T>
+std::vector<std::string> namesOf(const std::vector<T>& listed) {
+  std::vector<std::string> names = {"all"};
+  for (const T& one : listed) names.emplace_back(one.name);
+  return names;
 }
 
 std::string filterChoices() {
@@ -121,25 +131,32 @@ void addUserBiases(const BiasFlags& flags, CompareOptions& options) {
 
 void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases) {
   flags.biases = defaultBiases;
+  const OptionGroup group(verb, "Bias and filter");
   std::string biases;
   for (const BiasMethod& method : biasMethods()) biases += fmt::format("{}{}", biases.empty() ? "" : ", ", method.name);
   std::string sentences = "Biases:\n";
   for (const BiasMethod& method : biasMethods())
     sentences += fmt::format("  {:<17} {}\n", method.name, method.sentence);
   verb.footer(sentences);
-  verb.add_option("--biases", flags.biases, fmt::format("comma-separated, or all: {}", biases))->capture_default_str();
-  verb.add_option("--bias-file", flags.biasFiles,
-                  "GLSL file with your own bias, scored as one more row (docs/add_a_bias.md); may be repeated");
+  offersSomeOf(verb.add_option("--biases", flags.biases, fmt::format("comma-separated, or all: {}", biases))
+                   ->capture_default_str(),
+               namesOf(biasMethods()));
+  offersFiles(
+      verb.add_option("--bias-file", flags.biasFiles,
+                      "GLSL file with your own bias, scored as one more row (docs/add_a_bias.md); may be repeated"));
   verb.add_option(
           "--bias-file-knob", flags.biasFileKnobs,
           "NAME=VALUE: a parameter of your bias, in its unit (VALUE alone if it has only one); default: the file's; "
           "may be repeated")
       ->allow_extra_args(false);
-  verb.add_option("--filters", flags.filters, "comma-separated, or all: " + filterChoices())->capture_default_str();
+  offersSomeOf(
+      verb.add_option("--filters", flags.filters, "comma-separated, or all: " + filterChoices())->capture_default_str(),
+      namesOf(filters()));
   for (const BiasChoice* choice : biasChoices()) {
     const std::string flag = choice->flag();
     flags.choices[flag] = choice->values.front();
-    verb.add_option(flag, flags.choices[flag], choice->sentence)->capture_default_str();
+    offersOneOf(verb.add_option(flag, flags.choices[flag], choice->sentence)->capture_default_str(),
+                {choice->values.begin(), choice->values.end()});
   }
   forEachKnob([&](const char* owner, const Knob& knob) {
     const std::string flag = knobFlag(owner, knob);

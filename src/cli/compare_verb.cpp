@@ -1,9 +1,13 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
+#include "base/interrupt.h"
 #include "base/parse.h"
 #include "base/terminal.h"
 #include "cli/method_flags.h"
+#include "cli/offers.h"
+#include "cli/option_group.h"
+#include "cli/output_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
@@ -25,6 +29,8 @@
 namespace gnomon {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct CompareFlags {
   SceneFlags scene;
@@ -53,7 +59,12 @@ int runCompare(const CompareFlags& flags) {
   std::vector<Threshold> thresholds;
   for (const std::string& text : flags.failIf) thresholds.push_back(parseThreshold(text));
   CompareOptions options = compareOptions(flags.method);
-  for (const Threshold& threshold : thresholds) checkMeansARow(threshold, options);
+  // Of the map's name only where one is given: else it is that of the light, which is read below.
+  if (!flags.method.map.maps.empty())
+    for (const Threshold& threshold : thresholds) checkMeansARow(threshold, options);
+  checkFolderName(
+      flags.out,
+      "name a folder without such an ending (--json FILE writes the numbers alone, gnomon render one picture)");
   if (!flags.json.empty()) checkOutput(flags.json);
   ResultFolder folder(flags.out, "results.json");
   options.outDir = folder.aside();
@@ -65,7 +76,16 @@ int runCompare(const CompareFlags& flags) {
   options.untilMapSide = flags.untilMapSize;
 
   const Session session = openSession(flags.scene);
+  chooseUsualMap(flags.method, session, options);
+  for (const Threshold& threshold : thresholds) checkMeansARow(threshold, options);
+  const InterruptGuard guard;
+  options.soFar = [&](const Comparison& soFar) {
+    if (!flags.out.empty()) writeTextFile(options.outDir / "results.json", resultsJson(session, soFar, commandLine()));
+    if (!flags.json.empty() && !isStream(flags.json))
+      writeTextFile(flags.json, resultsJson(session, soFar, commandLine()));
+  };
   Comparison comparison = compare(session, options);
+  if (!flags.out.empty()) fs::remove(options.outDir / "results.json");  // it is none of its files
   comparison.files = folder.files();
   const std::string json = resultsJson(session, comparison, commandLine());
   if (!flags.out.empty()) {
@@ -80,6 +100,10 @@ int runCompare(const CompareFlags& flags) {
   say(comparisonTable(comparison, {.wide = flags.wide, .width = width}));
   say(wrapped(tuningTable(comparison) + equalErrorTable(comparison) + recommendation(comparison), width));
   if (!flags.out.empty()) say(fmt::format("wrote {0}/report.html, results.json and pictures below {0}\n", flags.out));
+  if (!comparison.isComplete) {
+    std::fprintf(stderr, "gnomon: interrupted: %zu rows are done\n", comparison.rows.size());
+    return kInterruptedExitCode;
+  }
   for (const Threshold& threshold : thresholds) {
     if (const std::optional<std::string> line = crossed(threshold, comparison.rows)) {
       std::fprintf(stderr, "gnomon: %s\n", line->c_str());
@@ -92,10 +116,14 @@ int runCompare(const CompareFlags& flags) {
 Run addCompare(CLI::App* verb) {
   auto flags = std::make_shared<CompareFlags>();
   addSceneFlags(*verb, flags->scene);
-  addMethodFlags(*verb, flags->method, "spot", "all");
-  verb->add_option("-o,--out", flags->out,
-                   "folder for report.html, pictures and results.json; default: only the table is printed");
-  verb->add_option("--json", flags->json, "write results.json here");
+  addMethodFlags(*verb, flags->method, "all");
+  addExposureFlag(*verb, flags->method.map.exposure);
+  verb->get_option("--exposure")->group("View and device");
+  const OptionGroup group(*verb, "Measurement and output");
+  offersFolders(verb->add_option(
+      "-o,--out", flags->out, "folder for report.html, pictures and results.json; default: only the table is printed"));
+  offersFiles(verb->add_option("--json", flags->json,
+                               "write results.json here; after each map and light what there is by then"));
   verb->add_option("--fail-if", flags->failIf,
                    "exit with 3 if exceeded: [[map/]bias:]metric>limit[%], as in 'acne>0.1%'; metrics are " +
                        thresholdMetrics() + "; may be repeated");

@@ -1,11 +1,17 @@
 #include "base/error.h"
 #include "base/file.h"
+#include "base/interrupt.h"
+#include "base/suggest.h"
 #include "base/terminal.h"
 #include "cli/map_flags.h"
+#include "cli/offers.h"
+#include "cli/option_group.h"
+#include "cli/output_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/core/maps.h"
+#include "lab/fog/density_sequence.h"
 #include "lab/fog/fog.h"
 #include "lab/fog/fog_motion.h"
 #include "lab/fog/fog_pictures.h"
@@ -44,7 +50,9 @@ struct FogFlags {
   std::optional<double> densityScale;
   std::optional<int> repeats;
   int frames = 0;
+  std::optional<int> firstFrame;
   std::string move;
+  std::optional<float> exposure;
 };
 
 // Of the reference. Steps through a density cost four times as much for each halving.
@@ -118,7 +126,12 @@ std::string marchMaps() {
 const Parameterization* parseMarchMap(const std::string& name) {
   for (const Parameterization* map : parameterizations())
     if (map->looksAround() && map->name() == name) return map;
-  throw UsageError(fmt::format("--march-map {}: choose {}", name, marchMaps()));
+  std::vector<std::string> names;
+  for (const Parameterization* map : parameterizations())
+    if (map->looksAround()) names.emplace_back(map->name());
+  const std::string nearest = nearestName(name, names);
+  throw UsageError(fmt::format("--march-map {}: {}choose {}", name,
+                               nearest.empty() ? "" : fmt::format("did you mean {}? ", nearest), marchMaps()));
 }
 
 // A picture where -o names one (a stream gets a PNG), else a folder.
@@ -127,17 +140,54 @@ bool isPicture(const std::string& out) {
   return extension == ".exr" || extension == ".png" || isStream(out);
 }
 
+DensityPlacement placementOf(const FogFlags& flags, const glm::dvec3& originW) {
+  DensityPlacement placement{.scale = flags.densityScale.value_or(1.0), .originW = originW};
+  if (!(placement.scale >= 1e-6 && placement.scale <= 1e6))
+    throw UsageError(fmt::format("--density-scale {}: give a scale factor, 1e-6..1e6", placement.scale));
+  if (!flags.densityAt.empty()) placement.centerW = parsePlace("--density-at", flags.densityAt);
+  return placement;
+}
+
+bool isSequence(const FogFlags& flags) {
+  return DensitySequence::isOne(flags.density);
+}
+
+// Of a sequence the first frame's.
 std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags, const glm::dvec3& originW) {
   if (flags.density.empty()) {
     if (!flags.densityAt.empty() || flags.densityScale)
       throw UsageError("--density-at and --density-scale need a --density");
     return nullptr;
   }
-  DensityPlacement placement{.scale = flags.densityScale.value_or(1.0), .originW = originW};
-  if (!(placement.scale >= 1e-6 && placement.scale <= 1e6))
-    throw UsageError(fmt::format("--density-scale {}: give a scale factor, 1e-6..1e6", placement.scale));
-  if (!flags.densityAt.empty()) placement.centerW = parsePlace("--density-at", flags.densityAt);
-  return std::make_shared<const DensityGrid>(flags.density, placement);
+  const DensityPlacement placement = placementOf(flags, originW);
+  const std::string file =
+      isSequence(flags) ? DensitySequence(flags.density, flags.firstFrame, flags.frames).file(0) : flags.density;
+  return std::make_shared<const DensityGrid>(file, placement);
+}
+
+// What changes from frame to frame; none where nothing does.
+std::optional<FogMotion> motionOf(const FogFlags& flags, const glm::dvec3& originW) {
+  if (isSequence(flags) && flags.frames == 0)
+    throw UsageError(fmt::format("--density {}: the # stands for a frame's number; add --frames N, or name one file",
+                                 flags.density));
+  if (flags.firstFrame && !isSequence(flags))
+    throw UsageError("--first-frame needs a sequence: --density smoke.####.vdb");
+  if (!isSequence(flags) && flags.move.empty() != (flags.frames == 0))
+    throw UsageError("--frames and --move: give both or neither");
+  std::optional<FogMotion> motion;
+  if (!flags.move.empty()) motion = parseMotion(flags.move, flags.frames);
+  if (!isSequence(flags)) return motion;
+  if (flags.frames < 2 || flags.frames > kMostFrames)
+    throw UsageError(fmt::format("--frames {}: give 2..{} frames", flags.frames, kMostFrames));
+  // Where the file places each; a centre given would hold still what moves.
+  if (!flags.densityAt.empty())
+    throw UsageError("--density-at: a sequence stays where its files place it; leave the flag out");
+  if (!motion) motion = FogMotion{.frames = flags.frames};
+  motion->densityAt = [sequence = DensitySequence(flags.density, flags.firstFrame, flags.frames),
+                       placement = placementOf(flags, originW)](int frame) {
+    return std::make_shared<const DensityGrid>(sequence.file(frame), placement);
+  };
+  return motion;
 }
 
 FogMedium fogMedium(const FogFlags& flags, const glm::dvec3& originW) {
@@ -171,6 +221,7 @@ std::string integratorsHelp() {
 }
 
 FogOptions fogOptions(const FogFlags& flags, const glm::dvec3& originW) {
+  const std::optional<FogMotion> motion = motionOf(flags, originW);
   const bool folder = !flags.out.empty() && !isPicture(flags.out);
   // A picture alone needs one way to integrate; whoever asks for numbers wants all.
   const bool compares = folder || flags.truth || !flags.json.empty() || flags.out.empty();
@@ -192,8 +243,8 @@ FogOptions fogOptions(const FogFlags& flags, const glm::dvec3& originW) {
   if (!(options.reference.bound >= 1e-6 && options.reference.bound <= 1.0))
     throw UsageError(
         fmt::format("--bound {}: give a fraction of the picture's mean, 1e-6..1", options.reference.bound));
-  if (flags.move.empty() != (flags.frames == 0)) throw UsageError("--frames and --move: give both or neither");
-  if (!flags.move.empty()) options.motion = parseMotion(flags.move, flags.frames);
+  options.exposure = flags.exposure;
+  options.motion = motion;
   if (options.motion && !folder && !flags.truth)
     throw UsageError("--frames: give a folder with -o for the frames, or --truth to measure flicker");
   return options;
@@ -217,11 +268,17 @@ void writePicture(const std::filesystem::path& path, const FogResult& result, co
 
 int runFogVerb(const FogFlags& flags) {
   const bool isFolder = !flags.out.empty() && !isPicture(flags.out);
+  if (isFolder)
+    checkFolderName(flags.out,
+                    "write .png or .exr for a picture; of --frames give a folder, where ffmpeg makes frames/*.mp4");
+  if (isStream(flags.out) && flags.truth)
+    throw UsageError(fmt::format("-o {}: --truth writes two pictures; name a file or a folder", flags.out));
   for (const std::string& file : {isFolder ? "" : flags.out, flags.json})
     if (!file.empty()) checkOutput(file);
   ResultFolder folder(isFolder ? flags.out : "", "results.json");
   const Session session = openSession(flags.scene);
   FogOptions options = fogOptions(flags, session.scene().originW);
+  const InterruptGuard guard;
   options.outDir = folder.aside();
   FogResult result = runFog(session, options);
   result.files = folder.files();
@@ -245,6 +302,14 @@ int runFogVerb(const FogFlags& flags) {
       writePicture(beside, result, result.reference->inScattered);
     }
   }
+  if (!result.isComplete) {
+    const std::string done = options.motion
+                                 ? fmt::format("{} of {} frames are done", result.framesDone, options.motion->frames)
+                             : flags.truth && !result.reference ? std::string("there is no reference")
+                                                                : std::string("all but the end is done");
+    std::fprintf(stderr, "gnomon: interrupted: %s\n", done.c_str());
+    return kInterruptedExitCode;
+  }
   return 0;
 }
 
@@ -259,9 +324,10 @@ void addMediumFlags(CLI::App& verb, FogFlags& flags) {
   verb.add_option("--reach", flags.reach,
                   "metres from the eye at which view rays end if they hit no surface; default: the farthest corner "
                   "of the scene's bounds");
-  verb.add_option("--density", flags.density,
-                  "FILE.vdb[:grid], a float grid that multiplies sigma_s and sigma_a (`gnomon scene --density` "
-                  "generates some); default: none, a homogeneous medium");
+  offersFiles(verb.add_option(
+      "--density", flags.density,
+      "FILE.vdb[:grid], a float grid that multiplies sigma_s and sigma_a (`gnomon scene --density` "
+      "generates some), or smoke.####.vdb, a file a frame, with --frames; default: none, a homogeneous medium"));
   verb.add_option("--density-at", flags.densityAt,
                   "x,y,z: new centre of the density, metres; default: where the file places it");
   verb.add_option("--density-scale", flags.densityScale, "scale factor of the density's size; default: 1");
@@ -270,44 +336,71 @@ void addMediumFlags(CLI::App& verb, FogFlags& flags) {
       ->capture_default_str();
 }
 
-Run addFog(CLI::App* verb) {
-  auto flags = std::make_shared<FogFlags>();
-  addSceneFlags(*verb, flags->scene);
-  verb->add_option("-o,--out", flags->out,
-                   "a picture by the first of --integrators, .exr (cd/m^2) or .png (exposed); or a folder for "
-                   "report.html, results.json and all pictures");
-  verb->add_option("--json", flags->json, "write results.json here");
-  verb->add_flag("--truth", flags->truth, "ray-trace the reference, and score each integrator against it");
-  verb->add_option(
-      "--bound", flags->bound,
+void addIntegrationFlags(CLI::App& verb, FogFlags& flags) {
+  const OptionGroup group(verb, "Integration");
+  verb.add_flag("--truth", flags.truth, "ray-trace the reference, and score each integrator against it");
+  verb.add_option(
+      "--bound", flags.bound,
       fmt::format("convergence tolerance of the reference: the most that doubling its samples may change a pixel, as "
                   "a fraction of the picture's mean; default: {:g}, in a density {:g}",
                   kBound, kDensityBound));
-  verb->add_flag("--no-cache", flags->noCache, "neither read nor write the cache of references");
-  verb->add_option("--integrators", flags->integrators, integratorsHelp());
-  verb->add_option("--steps", flags->steps,
-                   fmt::format("samples along a view ray, for march; in a density, for every integrator; default: {}; "
-                               "where only a picture is asked for: {}, the second to tell its error",
-                               kComparedSteps, kPictureSteps));
-  verb->add_option("--march-map", flags->marchMap, "shadow map for march: " + marchMaps())->capture_default_str();
-  addMediumFlags(*verb, *flags);
-  addMapOptionFlags(*verb, flags->map, volumeParameterization().options());
-  verb->add_option("--map-size", flags->map.mapSize,
-                   "side of the images of --march-map, and of the cube map of --vsv-source resample; texels")
+  verb.add_flag("--no-cache", flags.noCache, "neither read nor write the cache of references");
+  std::vector<std::string> integratorNames;
+  for (const Integrator& integrator : integrators()) integratorNames.emplace_back(integrator.name);
+  offersSomeOf(verb.add_option("--integrators", flags.integrators, integratorsHelp()), integratorNames);
+  verb.add_option("--steps", flags.steps,
+                  fmt::format("samples along a view ray, for march; in a density, for every integrator; default: {}; "
+                              "where only a picture is asked for: {}, the second to tell its error",
+                              kComparedSteps, kPictureSteps));
+  std::vector<std::string> maps;
+  for (const Parameterization* map : parameterizations())
+    if (map->looksAround()) maps.emplace_back(map->name());
+  offersOneOf(
+      verb.add_option("--march-map", flags.marchMap, "shadow map for march: " + marchMaps())->capture_default_str(),
+      maps);
+  addMapOptionFlags(verb, flags.map, volumeParameterization().options());
+  verb.add_option("--map-size", flags.map.mapSize,
+                  "side of the images of --march-map, and of the cube map of --vsv-source resample; texels")
       ->check(CLI::Range(2, 16384))
       ->capture_default_str();
-  addCullFlag(*verb, flags->map);
-  verb->add_option("--frames", flags->frames, "number of frames along --move; with --truth, flicker is measured too");
-  verb->add_option("--move", flags->move,
-                   "light:x,y,z or camera:x,y,z: offset from the first frame to the last, metres");
-  verb->add_option("--repeats", flags->repeats,
-                   fmt::format("repetitions of every timed stage; medians are reported; default: {}, where only a "
-                               "picture is asked for {}",
-                               kComparedRepeats, kPictureRepeats))
+  addCullFlag(verb, flags.map);
+  verb.add_option("--repeats", flags.repeats,
+                  fmt::format("repetitions of every timed stage; medians are reported; default: {}, where only a "
+                              "picture is asked for {}",
+                              kComparedRepeats, kPictureRepeats))
       ->check(CLI::Range(1, 1000));
-  return [flags] { return runFogVerb(*flags); };
 }
 
+Run addFog(CLI::App* verb) {
+  auto flags = std::make_shared<FogFlags>();
+  addSceneFlags(*verb, flags->scene);
+  addExposureFlag(*verb, flags->exposure);
+  verb->get_option("--exposure")->group("View and device");
+  {
+    const OptionGroup group(*verb, "Output");
+    offersFiles(
+        verb->add_option("-o,--out", flags->out,
+                         "a picture by the first of --integrators, .exr (cd/m^2) or .png (exposed); or a folder for "
+                         "report.html, results.json and all pictures"));
+    offersFiles(verb->add_option("--json", flags->json, "write results.json here"));
+  }
+  addIntegrationFlags(*verb, *flags);
+  {
+    const OptionGroup group(*verb, "Medium");
+    addMediumFlags(*verb, *flags);
+  }
+  const OptionGroup group(*verb, "Motion");
+  verb->add_option(
+      "--frames", flags->frames,
+      "number of frames along --move, or of a sequence of densities; with --truth, flicker is measured too");
+  verb->add_option(
+      "--move", flags->move,
+      "light:x,y,z or camera:x,y,z: offset from the first frame to the last, metres; orbit:AXIS,DEGREES: the "
+      "light goes round the scene's centre, AXIS x, y, z or a vector, as in orbit:y,360");
+  verb->add_option("--first-frame", flags->firstFrame,
+                   "number of a sequence's first file; default: the least that there is");
+  return [flags] { return runFogVerb(*flags); };
+}
 }  // namespace
 
 Verb fogVerb() {

@@ -1,11 +1,11 @@
 #include "base/error.h"
 #include "base/terminal.h"
+#include "cli/scene_flags.h"
 #include "cli/verbs.h"
 #include "gpu/device.h"
 #include "gpu/shader_compiler.h"
 #include "lab/compare/results.h"
 #include "scene/adjacency.h"
-#include "scene/generate.h"
 
 #include <memory>
 
@@ -55,8 +55,8 @@ std::string lightText(const Light& light, const glm::dvec3& originW) {
   return "";
 }
 
-void printScene(const std::string& name) {
-  const Scene scene = openScene(name);
+void printScene(const SetupOptions& setup) {
+  const Scene scene = openScene(setup);
   const Bounds bounds = computeBounds(scene);
   say(fmt::format("{}: {} triangles, {} meshes, {} instances, {} materials, {} textures\n", scene.name,
                   triangleCount(scene), scene.meshes.size(), scene.instances.size(), scene.materials.size(),
@@ -84,13 +84,13 @@ void printScene(const std::string& name) {
 }
 
 Run addInfo(CLI::App* verb) {
-  auto scene = std::make_shared<std::string>();
-  verb->add_option("SCENE", *scene, "a glTF file (.gltf, .glb), or a generated scene: `gnomon scene` lists them");
-  return [scene] {
-    if (scene->empty())
+  auto setup = std::make_shared<SetupOptions>();
+  addSceneFileFlags(*verb, *setup);
+  return [setup] {
+    if (setup->scene.empty())
       printDevices();
     else
-      printScene(*scene);
+      printScene(*setup);
     return 0;
   };
 }

@@ -1,14 +1,16 @@
-// The gnomon program. Exit codes: 0 success, 1 runtime error, 2 usage error, 3 a --fail-if threshold was exceeded, or
-// vsv --validate found a wrong voxel.
+// The gnomon program. Exit codes: kExitCodes.
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/image.h"
+#include "base/interrupt.h"
 #include "base/message.h"
 #include "base/suggest.h"
 #include "base/terminal.h"
 #include "cli/memory_limit.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
+#include "cli/version.h"
 #include "lab/results/schema.h"
 
 #include <algorithm>
@@ -27,6 +29,13 @@
 namespace {
 
 using namespace gnomon;
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 success; 1 runtime error (file, device, memory); 2 usage error; 3 a --fail-if threshold was "
+    "exceeded, or vsv --validate found a wrong voxel; 130 interrupted: what was done by then is written.";
+constexpr const char* kEnvironment =
+    "Environment: GNOMON_DEVICE is the same as --device; GNOMON_VALIDATION=1 enables the validation layers; "
+    "GNOMON_CACHE_DIR is the folder of the shader cache (empty: no cache); COLUMNS is the width of tables.";
 
 // No flag takes an empty value: a script's variable was not set.
 void refuseEmptyWords(int argc, char** argv) {
@@ -70,18 +79,16 @@ std::string mistakeIn(const CLI::App& verb, const CLI::ParseError& error) {
 int parseAndRun(int argc, char** argv) {
   refuseEmptyWords(argc, argv);
   CLI::App app("Gnomon measures shadow-map bias for point, spot and directional lights", "gnomon");
-  app.set_version_flag("--version", gnomonVersion());
+  app.set_version_flag("--version", versionText());
   app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 success; 1 runtime error (file, device, memory); 2 usage error; 3 a --fail-if threshold was "
-      "exceeded, or vsv --validate found a wrong voxel.\n"
-      "Environment: GNOMON_DEVICE is the same as --device; GNOMON_VALIDATION=1 enables the validation layers; "
-      "GNOMON_CACHE_DIR is the folder of the shader cache (empty: no cache).");
+  app.footer(std::string(kExitCodes) + "\n" + kEnvironment);
   app.option_defaults()->always_capture_default(false);
   std::vector<std::pair<const CLI::App*, Run>> runs;
   for (const Verb& verb : verbs()) {
     CLI::App* added = app.add_subcommand(verb.name, verb.sentence);
     runs.emplace_back(added, verb.add(added));
+    const std::string footer = added->get_footer();
+    added->footer((footer.empty() ? "" : footer + "\n") + kExitCodes);
   }
   checkVerb(argc, argv);
   const auto isGiven = [](const auto& run) { return run.first->parsed(); };
@@ -113,6 +120,8 @@ int runAndComplain(int argc, char** argv) {
     return exitCode;
   } catch (const UsageError& error) {
     return complain(error.what(), 2);
+  } catch (const Interrupted&) {
+    return complain("interrupted before there was anything to write", kInterruptedExitCode);
   } catch (const std::bad_alloc&) {
     return complain("out of memory; take a smaller --size or --map-size, or a smaller scene", 1);
   } catch (const std::exception& error) {
@@ -125,6 +134,7 @@ int runAndComplain(int argc, char** argv) {
 int main(int argc, char** argv) {
   guardStandardStreams();
   setCommandLine(argc, argv);
+  setPictureOrigin(std::string("gnomon ") + gnomonVersion(), commandLine());
   const auto work = [&] { return runAndComplain(argc, argv); };
   return isMemoryLimited() ? runWithinMemoryLimit(work) : work();
 }

@@ -14,14 +14,15 @@ class App;
 namespace gnomon {
 
 struct MapFlags {
-  std::string maps;
+  std::string maps;    // empty: by the light
   int mapSize = 1024;  // texels of a slice's side
   long mapTexels = 0;
   std::string cull = "solids";
+  std::optional<float> exposure;  // of pictures, where the verb has the flag
   MapOptions options;
 };
 // --maps, --map-size, --map-texels, --cull, and a flag for each option of each map.
-void addMapFlags(CLI::App& verb, MapFlags& flags, const char* defaultMaps);
+void addMapFlags(CLI::App& verb, MapFlags& flags);
 void addCullFlag(CLI::App& verb, MapFlags& flags);
 void addMapOptionFlags(CLI::App& verb, MapFlags& flags, const std::vector<const MapOption*>& options);
 

@@ -1,6 +1,7 @@
 #include "cli/memory_limit.h"
 
 #include "base/file.h"
+#include "base/interrupt.h"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -73,12 +74,15 @@ int runWithinMemoryLimit(const std::function<int()>& work) {
     ::_exit(exitCode);  // not by way of destructors of libraries, which may ask for memory
   }
   said = Descriptor();
+  std::signal(SIGINT, SIG_IGN);  // a terminal sends it to both, and the child answers
   const std::string text = readAll(heard.get());
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) return 128 + SIGINT;
   const int exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  if (exitCode != 0 && exitCode != 2 && exitCode != 3 && !isOwnComplaint(text)) return outOfMemory();
+  if (exitCode != 0 && exitCode != 2 && exitCode != 3 && exitCode != kInterruptedExitCode && !isOwnComplaint(text))
+    return outOfMemory();
   std::fputs(text.c_str(), stderr);
   return exitCode;
 }

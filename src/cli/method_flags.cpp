@@ -33,19 +33,31 @@ void checkMeaning(const CompareOptions& options, const Parameterization& map) {
 
 }  // namespace
 
-void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases) {
-  addMapFlags(verb, flags.map, defaultMaps);
+void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultBiases) {
+  addMapFlags(verb, flags.map);
   addBiasFlags(verb, flags.bias, defaultBiases);
 }
 
 CompareOptions compareOptions(const MethodFlags& flags) {
   CompareOptions options;
   static_cast<MapChoice&>(options) = mapChoice(flags.map);
-  options.maps = parseMaps(flags.map.maps);
+  options.maps = flags.map.maps.empty() ? std::vector{&usualMapFor(LightType::Point, options.mapOptions)}
+                                        : parseMaps(flags.map.maps);
   for (const Parameterization* map : options.maps) mapSideOf(options, *map);
   chooseBiases(flags.bias, options);
   for (const Parameterization* map : options.maps) checkMeaning(options, *map);
   return options;
+}
+
+void chooseUsualMap(const MethodFlags& flags, const Session& session, CompareOptions& options) {
+  if (!flags.map.maps.empty()) return;
+  const std::vector<Light> lights = lightsAsked(session.setup(), session.tracer());
+  LightType type = lights.empty() ? LightType::Point : lights.front().type;
+  // Who says where it shines, or how wide, wants a spot.
+  const bool hasCone = !session.setup().direction.empty() || session.setup().coneDegrees;
+  if (type == LightType::Point && hasCone) type = LightType::Spot;
+  options.maps = {&usualMapFor(type, options.mapOptions)};
+  mapSideOf(options, *options.maps.front());
 }
 
 }  // namespace gnomon

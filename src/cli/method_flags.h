@@ -10,8 +10,11 @@ struct MethodFlags {
   MapFlags map;
   BiasFlags bias;
 };
-void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultMaps, const char* defaultBiases);
-// Throws UsageError; says on the terminal what is left out because it means nothing on a map.
+void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultBiases);
+// Throws UsageError; says on the terminal what is left out because it means nothing on a map. Where no map is named it
+// stands for the one of chooseUsualMap, and is checked as if that were a cube.
 CompareOptions compareOptions(const MethodFlags& flags);
+// The map that suits the session's light, where none is named.
+void chooseUsualMap(const MethodFlags& flags, const Session& session, CompareOptions& options);
 
 }  // namespace gnomon

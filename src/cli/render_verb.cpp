@@ -4,6 +4,8 @@
 #include "base/terminal.h"
 #include "cli/choice.h"
 #include "cli/method_flags.h"
+#include "cli/offers.h"
+#include "cli/option_group.h"
 #include "cli/scene_flags.h"
 #include "cli/verbs.h"
 #include "lab/compare/render_picture.h"
@@ -30,6 +32,7 @@ struct RenderFlags {
 // A volume stores no triangles: there the default is the best that depth alone allows.
 MethodFlags methodOf(const RenderFlags& flags) {
   MethodFlags method = flags.method;
+  if (method.map.maps.empty()) return method;
   const auto maps = parseMaps(method.map.maps);
   if (flags.biases->count() == 0 && !maps.front()->supportsBias(findBias(kDefaultBias)))
     method.bias.biases = "adaptive";
@@ -40,6 +43,7 @@ int runRender(const RenderFlags& flags) {
   const std::string extension = std::filesystem::path(flags.out).extension().string();
   if (extension != ".png" && extension != ".exr" && !isStream(flags.out))
     throw UsageError(fmt::format("-o {}: the name must end in .png or .exr", flags.out));
+  refuseAllLights(flags.scene, "render");
   CompareOptions options = compareOptions(methodOf(flags));
   if (options.biases.size() > 1 && !options.userBiases.empty())
     options.biases.erase(options.biases.begin(), options.biases.end() - 1);  // a file given is the bias meant
@@ -48,28 +52,37 @@ int runRender(const RenderFlags& flags) {
   checkOutput(flags.out);
   if (extension == ".exr") preloadImages();
   const Session session = openSession(flags.scene);
+  chooseUsualMap(flags.method, session, options);
   const RenderedPicture picture = renderPicture(session, options, flags.show);
   if (!picture.note.empty()) std::fprintf(stderr, "gnomon: %s\n", picture.note.c_str());
   if (extension == ".exr")
     writeExr(flags.out, picture.exr, picture.channels);
   else
     writePng(flags.out, picture.png);
-  say(fmt::format("wrote {}\n", flags.out));
+  const std::string exposed =
+      picture.exposure > 0.0 ? fmt::format(", exposed by {:.6g} per cd/m^2", picture.exposure) : "";
+  say(fmt::format("wrote {}{}\n", flags.out, exposed));
   return 0;
 }
 
 Run addRender(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
   addSceneFlags(*verb, flags->scene);
-  addMethodFlags(*verb, flags->method, "spot", kDefaultBias);
+  addMethodFlags(*verb, flags->method, kDefaultBias);
+  addExposureFlag(*verb, flags->method.map.exposure);
   flags->biases = verb->get_option("--biases");
-  verb->add_option("-o,--out", flags->out, "the picture: .png (8 bits, for viewing) or .exr (linear data)")->required();
-  verb->add_option("--show", flags->show,
-                   "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
-                   "layer-gap (second depth - first), ids (the triangle each texel of the map sees) or texel-density "
-                   "(texels per square metre)")
-      ->check(oneOf(picturesToShow()))
-      ->capture_default_str();
+  verb->get_option("--exposure")->group("View and device");
+  const OptionGroup group(*verb, "Picture");
+  offersFiles(verb->add_option("-o,--out", flags->out, "the picture: .png (8 bits, for viewing) or .exr (linear data)")
+                  ->required());
+  offersOneOf(
+      verb->add_option("--show", flags->show,
+                       "beauty, visibility, truth, difference (visibility - truth), labels, depth, second-depth, "
+                       "layer-gap (second depth - first), ids (the triangle each texel of the map sees) or "
+                       "texel-density (texels per square metre)")
+          ->check(oneOf(picturesToShow()))
+          ->capture_default_str(),
+      picturesToShow());
   return [flags] { return runRender(*flags); };
 }
 

@@ -1,5 +1,6 @@
 #include "base/file.h"
 #include "base/terminal.h"
+#include "cli/offers.h"
 #include "cli/verbs.h"
 #include "lab/page/report.h"
 
@@ -27,8 +28,9 @@ int runReport(const ReportFlags& flags) {
 
 Run addReport(CLI::App* verb) {
   auto flags = std::make_shared<ReportFlags>();
-  verb->add_option("DIR", flags->folder, "a folder written by gnomon compare -o or gnomon fog -o")->required();
-  verb->add_option("-o,--out", flags->out, "the page: FILE.html")->required();
+  offersFolders(
+      verb->add_option("DIR", flags->folder, "a folder written by gnomon compare -o or gnomon fog -o")->required());
+  offersFiles(verb->add_option("-o,--out", flags->out, "the page: FILE.html")->required());
   return [flags] { return runReport(*flags); };
 }
 

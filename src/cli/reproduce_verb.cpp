@@ -2,6 +2,9 @@
 #include "base/file.h"
 #include "base/progress.h"
 #include "base/terminal.h"
+#include "cli/offers.h"
+#include "cli/output_flags.h"
+#include "cli/scene_flags.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "lab/paper/reproduce.h"
@@ -25,6 +28,7 @@ struct ReproduceFlags {
 
 int runReproduce(const ReproduceFlags& flags) {
   ReproduceOptions options = flags.options;
+  checkFolderName(flags.out, "name a folder without such an ending");
   ResultFolder folder(flags.out, "results.json");
   options.outDir = folder.aside();
   const Reproduction reproduction = reproduce({.name = flags.device}, options);
@@ -42,12 +46,14 @@ Run addReproduce(CLI::App* verb) {
   auto flags = std::make_shared<ReproduceFlags>();
   std::string papers;
   for (const std::string& paper : reproduciblePapers()) papers += (papers.empty() ? "" : " or ") + paper;
-  verb->add_option("PAPER", flags->options.paper, papers)->required();
-  verb->add_option("-o,--out", flags->out,
-                   "folder for report.html, pictures and results.json; default: only the verdicts are printed");
-  verb->add_option("--scene", flags->options.scene,
-                   "use this glTF file or generated scene, with its first camera and the first light that each map "
-                   "supports; default: a scene for each figure");
+  offersOneOf(verb->add_option("PAPER", flags->options.paper, papers)->required(), reproduciblePapers());
+  offersFolders(
+      verb->add_option("-o,--out", flags->out,
+                       "folder for report.html, pictures and results.json; default: only the verdicts are printed"));
+  offersFiles(verb->add_option("--scene", flags->options.scene,
+                               "use this glTF file or generated scene, with its first camera and the first light that "
+                               "each map supports; default: a scene for each figure"),
+              sceneNames());
   verb->add_option("--scale", flags->options.scale,
                    "scale factor for the sides of pictures, maps and volumes, for a quick look: 0.05..1; the "
                    "verdicts are meant for 1")

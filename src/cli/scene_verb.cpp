@@ -1,6 +1,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/terminal.h"
+#include "cli/offers.h"
+#include "cli/scene_flags.h"
 #include "cli/verbs.h"
 #include "scene/generate.h"
 #include "scene/gltf.h"
@@ -66,14 +68,19 @@ int runScene(const SceneVerbFlags& flags) {
 
 Run addScene(CLI::App* verb) {
   auto flags = std::make_shared<SceneVerbFlags>();
-  verb->add_option("NAME", flags->name, "a generated scene, `crowd:N` for about N triangles");
-  verb->add_option("-o,--out", flags->out, "FILE.glb, or FILE.vdb for a density");
+  std::vector<std::string> densities;
+  for (const GeneratedDensity& density : generatedDensities()) densities.emplace_back(density.name);
+  offersOneOf(verb->add_option("NAME", flags->name, "a generated scene, `crowd:N` for about N triangles"),
+              sceneNames());
+  offersFiles(verb->add_option("-o,--out", flags->out, "FILE.glb, or FILE.vdb for a density"));
   CLI::Option* density = verb->add_option("--density", flags->density, "a generated density instead of a scene");
-  verb->add_option("--for", flags->densityFor,
-                   "scene whose bounds the density fills: a generated scene or a glTF "
-                   "file")
-      ->capture_default_str()
-      ->needs(density);
+  offersOneOf(density, densities);
+  offersFiles(verb->add_option("--for", flags->densityFor,
+                               "scene whose bounds the density fills: a generated scene or a glTF "
+                               "file")
+                  ->capture_default_str()
+                  ->needs(density),
+              sceneNames());
   verb->add_option("--seed", flags->seed, "seed of the noise")->capture_default_str()->needs(density);
   return [flags] { return runScene(*flags); };
 }

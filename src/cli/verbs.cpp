@@ -12,10 +12,13 @@ Verb sceneVerb();
 Verb benchVerb();
 Verb reproduceVerb();
 Verb infoVerb();
+Verb completionVerb();
+Verb manVerb();
 
 const std::vector<Verb>& verbs() {
-  static const std::vector<Verb> all = {compareVerb(), renderVerb(), reportVerb(),    fogVerb(), vsvVerb(),
-                                        sceneVerb(),   benchVerb(),  reproduceVerb(), infoVerb()};
+  static const std::vector<Verb> all = {compareVerb(), renderVerb(),     reportVerb(), fogVerb(),
+                                        vsvVerb(),     sceneVerb(),      benchVerb(),  reproduceVerb(),
+                                        infoVerb(),    completionVerb(), manVerb()};
   return all;
 }
 

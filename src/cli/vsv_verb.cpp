@@ -3,6 +3,9 @@
 #include "base/image.h"
 #include "base/terminal.h"
 #include "cli/map_flags.h"
+#include "cli/offers.h"
+#include "cli/option_group.h"
+#include "cli/output_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
@@ -50,6 +53,9 @@ VolumeOptions volumeOptions(const VsvFlags& flags, const std::filesystem::path& 
 }
 
 int runVsv(const VsvFlags& flags) {
+  checkFolderName(flags.out,
+                  "name a folder without such an ending; --vdb FILE.vdb is the volume, --json FILE its numbers");
+  refuseAllLights(flags.scene, "vsv");
   for (const std::string& file : {flags.json, flags.vdb})
     if (!file.empty()) checkOutput(file);
   ResultFolder folder(flags.out, "volume.json");
@@ -72,6 +78,7 @@ int runVsv(const VsvFlags& flags) {
 Run addVsv(CLI::App* verb) {
   auto flags = std::make_shared<VsvFlags>();
   addSceneFlags(*verb, flags->scene);
+  const OptionGroup group(*verb, "Volume and output");
   addMapOptionFlags(*verb, flags->map, volumeParameterization().options());
   verb->add_option("--map-size", flags->map.mapSize, "side of the cube map's faces for --vsv-source resample, texels")
       ->check(CLI::Range(2, 16384))
@@ -80,10 +87,10 @@ Run addVsv(CLI::App* verb) {
   verb->add_flag("--validate", flags->validate,
                  "compare every voxel with a CPU rebuild from the same depth map (exit code 3 if one differs beyond "
                  "rounding), and every column with a traced ray");
-  verb->add_option("-o,--out", flags->out, "folder for pictures (slices, coordinates) and volume.json");
-  verb->add_option("--json", flags->json, "write volume.json here");
-  verb->add_option("--vdb", flags->vdb,
-                   "write an OpenVDB file: the voxels as a mask, and a world-space density, 1 in shadow");
+  offersFolders(verb->add_option("-o,--out", flags->out, "folder for pictures (slices, coordinates) and volume.json"));
+  offersFiles(verb->add_option("--json", flags->json, "write volume.json here"));
+  offersFiles(verb->add_option("--vdb", flags->vdb,
+                               "write an OpenVDB file: the voxels as a mask, and a world-space density, 1 in shadow"));
   verb->add_option("--vdb-voxel", flags->vdbVoxel,
                    "voxel size of the density, metres; default: the volume's mean voxel size");
   return [flags] { return runVsv(*flags); };

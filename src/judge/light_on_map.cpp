@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -174,7 +175,17 @@ std::vector<float> LightOnMap::texelDensities() const {
   return gnomon::texelDensities(fitted(), receivers());
 }
 
+double LightOnMap::exposureFactor() const {
+  if (setup_.exposure) return static_cast<double>(*setup_.exposure);
+  const double intensity = static_cast<double>(glm::compMax(source_.color) * source_.intensity);
+  return static_cast<double>(glm::compMax(exposure().lightColor)) * std::numbers::pi / std::max(intensity, 1e-30);
+}
+
 Exposure LightOnMap::exposure() const {
+  const glm::vec3 ambient(0.07f, 0.08f, 0.10f);
+  if (setup_.exposure)
+    return {.lightColor = source_.color * (source_.intensity * *setup_.exposure / std::numbers::pi_v<float>),
+            .ambient = ambient};
   const Receivers& seen = receivers();
   std::vector<double> squaredDistances;
   for (size_t i = 0; i < seen.states.size(); i += 7) {
@@ -189,7 +200,7 @@ Exposure LightOnMap::exposure() const {
     typical = *middle;
   }
   const glm::vec3 color = source_.color / std::max(glm::compMax(source_.color), 1e-6f);
-  return {.lightColor = color * static_cast<float>(0.75 * typical), .ambient = glm::vec3(0.07f, 0.08f, 0.10f)};
+  return {.lightColor = color * static_cast<float>(0.75 * typical), .ambient = ambient};
 }
 
 glsl::ShadeUniforms LightOnMap::exposedUniforms(const Exposure& exposure, const glsl::BiasParams& params) const {

@@ -35,6 +35,8 @@ struct MapSetup {
   CullMode cull = CullMode::Solids;
   // What the map is fitted to; absent: the scored points that the camera sees; empty: the whole scene.
   std::optional<std::vector<glm::dvec3>> receiversW = {};
+  // Of pictures, per cd/m^2; absent: as LightOnMap::exposure says.
+  std::optional<float> exposure = {};
 };
 
 // What the walks of `witness` came to, of all scored pixels (shared/sheet_walk.glsl).
@@ -109,9 +111,11 @@ class LightOnMap {
   std::vector<float> filteredTruth(const ChosenFilter& filter) const;
   std::vector<float> texelDensities() const;
 
-  // So that a typical lit surface is neither dark nor burnt: a white one that faces the light at the median distance of
-  // what is lit has radiance 0.75.
+  // The setup's, or one by which a typical lit surface is neither dark nor burnt: a white one that faces the light at
+  // the median distance of what is lit has radiance 0.75.
   Exposure exposure() const;
+  // The same as a factor per cd/m^2, of the light as the file or the command line has it.
+  double exposureFactor() const;
   // Linear rgb by one visibility a pixel.
   ImageF radiance(std::span<const float> visibility, const Exposure& exposure) const;
   ImageF radiance(std::span<const float> visibility) const { return radiance(visibility, exposure()); }

@@ -168,6 +168,19 @@ glm::dmat3 fitWindow(const FitInput& input, const AxisFrame& frame, std::span<co
   return clipFromPlane(input.options.get(kSnap) ? snapWindow(window, input.side) : window);
 }
 
+// Of a spot, degrees, beyond which it is told: a texel at its axis then spans 1/cos^2(85 degrees) = 132 times the angle
+// of one at its rim.
+constexpr double kWideConeDegrees = 170.0;
+
+std::string wideConeNote(const LightModel& light) {
+  const double degrees = 2.0 * glm::degrees(light.outerConeRad);
+  if (degrees <= kWideConeDegrees) return "";
+  return fmt::format(
+      "a cone of {:.4g} degrees on one plane leaves its rim most of the texels and its axis few; --maps cube does not, "
+      "and --cone makes it narrower",
+      degrees);
+}
+
 FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
   checkPlanarOptions(input.options);
   const Bounds bounds = computeBounds(input.scene);
@@ -177,6 +190,7 @@ FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
 
   const Warp warp = input.options.get(kWarp);
   FittedMap fitted;
+  if (perspective) fitted.note = wideConeNote(input.light);
   std::vector<glm::dmat3> planes;
   for (const std::vector<glm::dvec2>& points : slicePoints(input, frame, bounds, cascadeCount)) {
     WarpedPlane warped;
@@ -185,7 +199,7 @@ FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
       warped = warpPlane(
           warp,
           {.frame = frame, .camera = input.camera, .points = hull, .receiversW = input.receiversW, .side = input.side});
-      fitted.note = warped.note;
+      if (!warped.note.empty()) fitted.note = warped.note;
     }
     planes.push_back(warped.warped ? warped.clipFromPlane : fitWindow(input, frame, points, sceneScale));
   }

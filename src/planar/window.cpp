@@ -72,6 +72,7 @@ template <typename MayExceed, typename ValueOf>
 double greatestOfCasters(const Scene& scene, const AxisFrame& frame, const SliceVolume& volume, double start,
                          const MayExceed& mayExceed, const ValueOf& valueOf) {
   for (const Instance& instance : scene.instances) {
+    if (!instance.casts) continue;
     const Mesh& mesh = scene.meshes[instance.mesh];
     const glm::dmat4 worldFromMesh(instance.worldFromMesh);
     const auto cornerL = [&](size_t index) {

@@ -5,12 +5,14 @@
 #include "scene/scene.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace gnomon {
 
 struct GltfOptions {
+  std::optional<int> scene;                           // of those in the file; absent: the one that it shows
   std::vector<std::filesystem::path> allowedFolders;  // beside the file's own: what its URIs may lead into
 };
 

@@ -38,6 +38,7 @@ class GltfDocument {
   GltfDocument& operator=(const GltfDocument&) = delete;
 
   const std::string& name() const { return name_; }
+  const GltfOptions& options() const { return options_; }
   const tinygltf::Model& model() const { return *model_; }
   const std::vector<GltfImage>& images() const { return images_; }
   // What a person should know about the file, a line each; the loader's later stages add theirs.

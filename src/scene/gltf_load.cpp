@@ -126,8 +126,10 @@ void bake(Mesh& mesh, const glm::dmat4& worldFromMesh) {
 // that several use keep their matrices, but for nodes whose matrix has no inverse, which get a baked copy.
 class GeometryLoader {
  public:
-  GeometryLoader(GltfDocument& document, Scene& scene, std::vector<UvSource> uvSources)
-      : document_(document), scene_(scene), uvSources_(std::move(uvSources)) {}
+  // `all`: placeNodes' list, which must outlive the loader.
+  GeometryLoader(GltfDocument& document, Scene& scene, std::vector<UvSource> uvSources,
+                 const std::vector<PlacedNode>& all)
+      : document_(document), scene_(scene), uvSources_(std::move(uvSources)), all_(all) {}
 
   void load(const std::vector<PlacedNode>& nodes) {
     countUses(nodes);
@@ -261,11 +263,14 @@ class GeometryLoader {
     const bool shared = uses.all > 1 && isInvertible(placed.worldFromNode);
     // Nobody else needs the mesh as it is in the file.
     const bool inPlace = uses.all == 1 || (uses.invertible == 0 && uses.done == uses.all);
+    std::string path = placed.parent < 0 ? "" : printable(pathOf(document_, all_, placed));
+    if (path == node.name) path.clear();
     for (const Part& part : parts_[node.mesh]) {
       checkBounds(part, placed);
       Instance instance;
       instance.mesh = part.mesh;
       instance.name = node.name.empty() ? scene_.meshes[part.mesh].name : printable(node.name);
+      instance.path = path;
       if (shared) {
         instance.worldFromMesh = glm::mat4(placed.worldFromNode);
       } else {
@@ -299,6 +304,7 @@ class GeometryLoader {
   GltfDocument& document_;
   Scene& scene_;
   std::vector<UvSource> uvSources_;
+  const std::vector<PlacedNode>& all_;
   std::vector<Uses> uses_;                // of each glTF mesh, by nodes of the scene
   std::vector<std::vector<Part>> parts_;  // of each glTF mesh
   std::map<std::pair<int, float>, int> faded_;
@@ -310,7 +316,7 @@ Scene sceneOf(GltfDocument& document) {
   scene.name = printable(std::filesystem::path(document.name()).stem().string());
   std::vector<UvSource> uvSources = loadMaterials(document, scene);
   const std::vector<PlacedNode> nodes = placeNodes(document);
-  GeometryLoader(document, scene, std::move(uvSources)).load(placedMeshes(document, nodes));
+  GeometryLoader(document, scene, std::move(uvSources), nodes).load(placedMeshes(document, nodes));
   loadLightsAndCameras(document, nodes, scene);
   scene.notes = document.notes;
   scene.harmlessNotes = document.harmlessNotes;
@@ -323,6 +329,8 @@ Scene loadBytes(std::string_view bytes, const std::string& name, const std::file
   try {
     GltfDocument document(bytes, name, folder, options);
     return sceneOf(document);
+  } catch (const UsageError&) {
+    throw;
   } catch (const WorldError& error) {
     const std::string_view message = error.what();
     // The name may be long, so only what follows it is cut to one line.

@@ -1,5 +1,8 @@
 #include "scene/gltf_nodes.h"
 
+#include "base/error.h"
+#include "base/message.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -57,7 +60,21 @@ bool isFinite(const glm::dmat4& matrix) {
   return true;
 }
 
-// The roots of the scene that the file shows. Every node has one parent at most, and none is its own ancestor.
+// Which of its scenes is read. Throws UsageError where one is asked for that is not there.
+int sceneIndex(const GltfDocument& document) {
+  const tinygltf::Model& model = document.model();
+  const std::optional<int> asked = document.options().scene;
+  if (!asked) return std::max(model.defaultScene, 0);
+  if (*asked >= 0 && *asked < static_cast<int>(model.scenes.size())) return *asked;
+  std::string scenes;
+  for (size_t i = 0; i < model.scenes.size(); ++i)
+    scenes += fmt::format("{}{}{}", i == 0 ? "" : ", ", i,
+                          model.scenes[i].name.empty() ? "" : " (" + printable(model.scenes[i].name) + ")");
+  throw UsageError(fmt::format("--scene-index {}: {} has {}", *asked, document.name(),
+                               model.scenes.empty() ? "no list of scenes; leave the flag out" : "scenes " + scenes));
+}
+
+// The roots of the scene that is read. Every node has one parent at most, and none is its own ancestor.
 std::vector<int> sceneRoots(const GltfDocument& document) {
   const tinygltf::Model& model = document.model();
   std::vector<int> parent(model.nodes.size(), -1);
@@ -84,8 +101,8 @@ std::vector<int> sceneRoots(const GltfDocument& document) {
   const auto circle = std::find(reached.begin(), reached.end(), false);
   if (circle != reached.end())
     document.refuse(fmt::format("node {} is its own ancestor", circle - reached.begin()), kRemedy);
-  if (model.scenes.empty()) return roots;
-  roots = model.scenes[std::max(model.defaultScene, 0)].nodes;
+  if (model.scenes.empty() && !document.options().scene) return roots;
+  roots = model.scenes[sceneIndex(document)].nodes;
   std::vector<bool> listed(model.nodes.size(), false);
   for (int root : roots) {
     if (parent[root] >= 0)

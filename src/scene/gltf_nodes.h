@@ -20,8 +20,8 @@ struct PlacedNode {
 // The names of a node's nearest ancestors and its own, "rig/lamp"; those without a name are left out.
 std::string pathOf(const GltfDocument& document, const std::vector<PlacedNode>& nodes, const PlacedNode& placed);
 
-// All nodes of the scene that the file shows, parents before children, in the file's order. Refuses nodes
-// with two parents, circles, matrices that are not affine, and places at infinity.
+// All nodes of the scene that the file shows, or of the one asked for (GltfOptions::scene), parents before children, in
+// the file's order. Refuses nodes with two parents, circles, matrices that are not affine, and places at infinity.
 std::vector<PlacedNode> placeNodes(const GltfDocument& document);
 
 // Refuses points, relative to the scene's origin, so far away that products of coordinates leave a float's range.

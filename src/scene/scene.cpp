@@ -55,7 +55,7 @@ Bounds computeBounds(const Scene& scene) {
 }
 
 bool isSolid(const Scene& scene, const Mesh& mesh) {
-  return mesh.closed && !scene.materials[mesh.material].doubleSided;
+  return mesh.closed && (mesh.solidAnyway || !scene.materials[mesh.material].doubleSided);
 }
 
 bool computeClosed(const Mesh& mesh) {

@@ -24,6 +24,7 @@ struct Mesh {
   int material = 0;
   // After welding equal positions every edge is shared by exactly two oppositely wound triangles.
   bool closed = false;
+  bool solidAnyway = false;  // counts as a solid if it is closed, whatever its material says
 };
 
 enum class AlphaMode { Opaque, Mask };
@@ -39,7 +40,9 @@ struct Material {
 
 struct Instance {
   std::string name;
+  std::string path;  // its node's ancestors and itself, "rig/lamp"; empty: no ancestors with names
   int mesh = 0;
+  bool casts = true;  // a shadow; else it is only seen
   // Invertible. A negative determinant mirrors: front faces are then clockwise in mesh space.
   glm::mat4 worldFromMesh{1.0f};
 };
@@ -97,7 +100,8 @@ uint64_t triangleCount(const Scene& scene);
 // Of all instances' vertices, in world space. The diagonal is the sceneScale of Dou et al. 2014, equation 3.
 Bounds computeBounds(const Scene& scene);
 
-// A solid is closed and not doubleSided: its back faces, seen from the light, may be culled from a map.
+// A solid is closed and not doubleSided (but Mesh::solidAnyway): its back faces, seen from the light, may be culled
+// from a map.
 bool isSolid(const Scene& scene, const Mesh& mesh);
 
 // Whether every edge, after welding equal positions, joins exactly two oppositely wound triangles.

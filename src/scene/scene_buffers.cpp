@@ -109,6 +109,7 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
                              .masked = material.alphaMode == AlphaMode::Mask,
                              .doubleSided = material.doubleSided,
                              .solid = isSolid(scene, mesh),
+                             .casts = instance.casts,
                              .mirrored = mirrored,
                              .worldFromMesh = instance.worldFromMesh,
                              .material = toGpu(material),

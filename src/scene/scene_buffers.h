@@ -19,6 +19,7 @@ struct Draw {
   bool masked = false;       // needs the alpha test
   bool doubleSided = false;  // the camera sees both sides
   bool solid = false;        // closed and not doubleSided: its back faces may be culled from a map
+  bool casts = true;         // into maps; else the camera alone draws it
   bool mirrored = false;     // the instance's matrix turns the winding round
   glm::mat4 worldFromMesh{1.0f};
   glsl::SceneMaterial material{};

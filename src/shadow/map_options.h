@@ -48,6 +48,7 @@ class MapOption {
   virtual std::any parsed(const std::string& text) const = 0;   // throws UsageError that names the flag
   virtual std::string textOf(const std::any& value) const = 0;  // `parsed` takes it back
   virtual std::string defaultText() const = 0;
+  virtual std::vector<std::string> valueNames() const { return {}; }  // of a choice
 
  protected:
   explicit constexpr MapOption(const OptionText& text) : text_(text) {}
@@ -113,6 +114,11 @@ class ChoiceOption final : public MapOptionOf<T> {
       names += (i == 0 ? "" : ", ") + std::string(values_[i].name);
     }
     failChoice(this->flag(), text, names);
+  }
+  std::vector<std::string> valueNames() const override {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < count_; ++i) names.emplace_back(values_[i].name);
+    return names;
   }
   std::string text(const T& value) const override {
     for (size_t i = 0; i < count_; ++i)

@@ -60,7 +60,7 @@ bool SliceCulling::mayShow(const Bounds& boundsW) const {
 }
 
 std::vector<SliceCulling::Range> SliceCulling::rangesOf(const SceneBuffers& scene, const Draw& draw) const {
-  if (!mayShow(draw.boundsW)) return {};
+  if (!draw.casts || !mayShow(draw.boundsW)) return {};
   if (draw.partCount == 0) return {{draw.firstIndex, draw.indexCount}};
   std::vector<Range> ranges;
   bool goesOn = false;

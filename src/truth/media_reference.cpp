@@ -1,6 +1,7 @@
 #include "truth/media_reference.h"
 
 #include "base/check.h"
+#include "base/interrupt.h"
 #include "base/progress.h"
 #include "truth/scattering.h"
 
@@ -346,9 +347,13 @@ void forTiles(const glsl::CameraView& camera, const char* what, const Work& work
   const int rows = (camera.height + kTileSide - 1) / kTileSide, columns = (camera.width + kTileSide - 1) / kTileSide;
   Progress progress("media reference", rows);
   for (int row = 0; row < rows; ++row) {
+    throwIfInterrupted();
     progress.step(what);
-    tbb::parallel_for(0, columns, [&](int column) { work(column * kTileSide, row * kTileSide); });
+    tbb::parallel_for(0, columns, [&](int column) {
+      if (!isInterrupted()) work(column * kTileSide, row * kTileSide);
+    });
   }
+  throwIfInterrupted();
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ std::vector<double> viewRayEnds(const glsl::CameraView& camera, const Receivers&
 // Participating Media", EGSR 2012), and bisected between neighbours that differ. A tile's samples are doubled until two
 // doublings in a row change none of its pixels by more than the bound: one alone is easily quiet because both passed a
 // thin shaft by. Steps through a density are halved, too, until that changes none by more. Uses all cores; the result
-// does not depend on their number. Shows progress.
+// does not depend on their number. Shows progress. Throws Interrupted.
 MediaReference computeMediaReference(const Tracer& tracer, std::span<const MediaLight> lights,
                                      const glsl::CameraView& camera, std::span<const double> ends,
                                      const MediumModel& medium, const MediaReferenceOptions& options = {});

@@ -354,6 +354,7 @@ Tracer::Tracer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
     const auto id = static_cast<unsigned>(impl.frames.size());
     impl.meshes.push_back(&mesh);
     impl.frames.push_back({glm::dmat4(instance.worldFromMesh), instance.worldFromMesh == glm::mat4(1.0f)});
+    if (!instance.casts) continue;
     if (uses[meshIndex] == 1 || !isInvertible(impl.frames.back().worldFromMesh)) {
       impl.attachMesh(impl.top.get(), mesh, impl.frames.back(), id);
       continue;

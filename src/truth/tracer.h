@@ -1,8 +1,9 @@
 #pragma once
 // Exact visibility by Embree 3 (robust mode), with the decisions near a receiver redone in double precision.
 //
-// Every surface blocks from both sides. Holes of alpha masks are honoured with the same texture look-up as
-// the shaders (shared/texture.glsl). Instances are Embree instances, so that nineteen million triangles fit.
+// Every surface that casts (Instance::casts) blocks, from both sides. Holes of alpha masks are honoured with the same
+// texture look-up as the shaders (shared/texture.glsl). Instances are Embree instances, so that nineteen million
+// triangles fit.
 //
 // Embree decides in float which triangles a ray meets; everything about where it meets them is decided here
 // in double. What that leaves: a silhouette seen from the light may lie aside by about 2^-23 of the ray's

@@ -31,7 +31,7 @@ TEST_F(ImageTest, ExrKeepsEveryFloat) {
   for (size_t i = 0; i < image.values.size(); ++i)
     image.values[i] = std::ldexp(static_cast<float>(i) - 50.3f, static_cast<int>(i % 40) - 20);
   image.values[4] = std::numeric_limits<float>::infinity();
-  writeExr(folder_ / "a.exr", image, {"visibility", "truth", "label"});
+  writeExr(folder_ / "a.exr", image, {.names = {"visibility", "truth", "label"}});
   const ImageF back = readImage(folder_ / "a.exr");
   ASSERT_EQ(back.values.size(), image.values.size());
   // Channels come back in the file's order, which is alphabetical: label, truth, visibility.
@@ -122,7 +122,7 @@ TEST_F(ImageTest, AFullDiskLeavesTheOldPictureWhereverItIsFull) {
   for (size_t i = 0; i < data.values.size(); ++i) data.values[i] = std::sin(static_cast<float>(i));
   test::expectWholeOrOld<WorldError>(folder_ / "png" / "a.png", [&] { writePng(folder_ / "png" / "a.png", image); });
   test::expectWholeOrOld<WorldError>(folder_ / "exr" / "a.exr", [&] {
-    writeExr(folder_ / "exr" / "a.exr", data, {"Y", "Z"});
+    writeExr(folder_ / "exr" / "a.exr", data, {.names = {"Y", "Z"}});
   });
 }
 

@@ -268,7 +268,8 @@ TEST_F(CliTest, UntilErrorFindsTheSmallestMaps) {
 }
 
 TEST_F(CliTest, MapTexelsPicksTheSide) {
-  const Result result = run("compare corner --biases none --map-texels 10000 --size 32 --repeats 1 --json @/r.json");
+  const Result result =
+      run("compare corner --maps spot --biases none --map-texels 10000 --size 32 --repeats 1 --json @/r.json");
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows")[0].at("map_size"), 100);
 }
@@ -293,8 +294,8 @@ TEST_F(CliTest, RenderDrawsEveryKindOfPicture) {
   std::set<std::string> pngs, exrs;
   for (const std::string& show : shows) {
     for (const char* extension : {".png", ".exr"}) {
-      const Result result =
-          run("render contact --size 48 --map-size 32 --show " + show + " -o @/" + show + std::string(extension));
+      const Result result = run("render contact --maps spot --size 48 --map-size 32 --show " + show + " -o @/" + show +
+                                std::string(extension));
       EXPECT_EQ(result.exitCode, 0) << show << extension << ": " << result.err;
     }
     EXPECT_TRUE(pngs.insert(readFile(folder_ / (show + ".png"))).second) << show << " is drawn as another";

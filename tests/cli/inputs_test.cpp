@@ -1,6 +1,8 @@
 // Files from the field and what must come of them: small cases that once went wrong (from public bug reports, with the
 // right counts), scenes at any scale and place, and everything a person may have in a folder.
 
+#include "base/image.h"
+
 #include "cli_fixture.h"
 
 #include <cmath>
@@ -166,9 +168,9 @@ TEST_F(InputsTest, ALightIsNamedByPathNumberOrPlace) {
     const test::Result result =
         run("fog '" + scene.string() + "' --size 32 --vsv-size 64x64x128 --quiet -o @/" + name + ".exr " + flags);
     EXPECT_EQ(result.exitCode, 0) << result.err;
-    return readFile(folder_ / (name + ".exr"));
+    return readImage(folder_ / (name + ".exr")).values;
   };
-  const std::string lamp = radiance("", "lamp");
+  const std::vector<float> lamp = radiance("", "lamp");
   EXPECT_TRUE(radiance("--light 1.25,4,1.5", "placed") == lamp);
   EXPECT_TRUE(radiance("--light lamp@1.25,4,1.5", "moved") == lamp);
   EXPECT_TRUE(radiance("--intensity 100", "same") == lamp);

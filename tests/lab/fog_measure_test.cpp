@@ -1,9 +1,12 @@
 // What a medium's rows are judged by, on numbers small enough to work out by hand.
 #include "lab/fog/fog_measure.h"
+#include "lab/fog/density_sequence.h"
 #include "lab/fog/fog_motion.h"
 #include "lab/fog/fog_pictures.h"
 
 #include "base/error.h"
+#include "base/file.h"
+#include "tests/base/temporary_folder.h"
 
 #include <cmath>
 
@@ -131,10 +134,42 @@ TEST(Motion, RunsStraightFromTheFirstPlaceToTheLast) {
   EXPECT_EQ(placeAt(motion, {1, 1, 1}, 0), glm::vec3(1, 1, 1));
   EXPECT_EQ(placeAt(motion, {1, 1, 1}, 2), glm::vec3(2, 1, -1));
   EXPECT_EQ(placeAt(motion, {1, 1, 1}, 4), glm::vec3(3, 1, -3));
-  for (const char* text : {"", "lamp:1,0,0", "light", "light:1,0", "light:0,0,0"})
+  for (const char* text : {"", "lamp:1,0,0", "light", "light:1,0", "light:0,0,0", "orbit:y", "orbit:w,90", "orbit:y,0",
+                           "orbit:0,0,0,90", "orbit:y,1e9", "orbit:90"})
     EXPECT_THROW(parseMotion(text, 5), UsageError) << text;
   EXPECT_THROW(parseMotion("light:1,0,0", 1), UsageError);
   EXPECT_THROW(parseMotion("light:1,0,0", kMostFrames + 1), UsageError);
+}
+
+TEST(Motion, AnOrbitGoesRoundTheCentreAndTurnsTheLightWithIt) {
+  const FogMotion motion = parseMotion("orbit:y,180", 3);
+  Light light;
+  light.positionW = {3, 2, 0};
+  light.directionW = {-1, 0, 0};
+  const glm::vec3 centerW(1, 0, 0);
+  const auto expectNear = [](const glm::vec3& a, const glm::vec3& b) { EXPECT_LT(glm::length(a - b), 1e-6f); };
+  expectNear(lightAtFrame(motion, light, centerW, 0).positionW, {3, 2, 0});
+  expectNear(lightAtFrame(motion, light, centerW, 1).positionW, {1, 2, -2});
+  expectNear(lightAtFrame(motion, light, centerW, 1).directionW, {0, 0, 1});
+  expectNear(lightAtFrame(motion, light, centerW, 2).positionW, {-1, 2, 0});
+  const FogMotion tilted = parseMotion("orbit:0,0,2,90", 2);
+  expectNear(lightAtFrame(tilted, light, centerW, 1).positionW, {-1, 2, 0});
+}
+
+TEST(DensitySequences, AreFilesByNumber) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"smoke.0007.vdb", "smoke.0008.vdb", "smoke.0009.vdb", "smoke.x.vdb"})
+    writeTextFile(folder.path() / name, "");
+  const std::string pattern = (folder.path() / "smoke.####.vdb").string();
+  EXPECT_TRUE(DensitySequence::isOne(pattern));
+  EXPECT_FALSE(DensitySequence::isOne("smoke.vdb:density"));
+  const DensitySequence all(pattern + ":density", std::nullopt, 3);
+  EXPECT_EQ(all.first(), 7);
+  EXPECT_EQ(all.file(2), (folder.path() / "smoke.0009.vdb:density").string());
+  EXPECT_EQ(DensitySequence(pattern, 8, 2).file(0), (folder.path() / "smoke.0008.vdb").string());
+  EXPECT_THROW(DensitySequence(pattern, std::nullopt, 4), WorldError);
+  EXPECT_THROW(DensitySequence((folder.path() / "fog.##.vdb").string(), std::nullopt, 2), WorldError);
+  EXPECT_THROW(DensitySequence("a#b#.vdb", std::nullopt, 2), UsageError);
 }
 
 }  // namespace

@@ -45,6 +45,19 @@ TEST(Plot, TheFrontHoldsWhatNothingCheaperMatches) {
   EXPECT_EQ(std::count(plot.frontPath.begin(), plot.frontPath.end(), 'V'), 3);
 }
 
+TEST(Plot, NoiseOfTimesDoesNotDecideTheFront) {
+  const std::vector<PlotItem> items = {{"worse", 10.0, 0.002}, {"better", 10.4, 0.001}, {"like it", 10.2, 0.001}};
+  const auto front = [&](double noise) {
+    const Plot plot = layOutPlot(items, 980, 440, CostAxis::Linear, ErrorText::Percent, noise);
+    std::string names;
+    for (size_t i = 0; i < items.size(); ++i)
+      if (plot.marks[i].onFront) names += items[i].label + ";";
+    return names;
+  };
+  EXPECT_EQ(front(0.0), "worse;like it;");
+  EXPECT_EQ(front(0.05), "better;like it;");
+}
+
 TEST(Plot, OnALogarithmicAxisEqualFactorsAreEqualSteps) {
   const std::vector<PlotItem> items = {{"a", 1.0, 0.1}, {"b", 10.0, 0.01}, {"c", 1000.0, 0.001}};
   const Plot plot = layOutPlot(items, 980, 440, CostAxis::Logarithmic);

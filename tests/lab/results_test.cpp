@@ -5,6 +5,7 @@
 #include "lab/compare/compare.h"
 #include "lab/core/maps.h"
 #include "lab/fog/fog_report.h"
+#include "lab/results/json_schema.h"
 #include "lab/results/results_file.h"
 #include "tests/gpu_fixture.h"
 #include "vsv/volume_parameterization.h"
@@ -48,6 +49,12 @@ TEST(ResultsDocs, HaveTheTableOfEveryDeclaredField) {
   expectTables<MediaResults, MediumFacts, DensityFacts, ReferenceFacts, FramesFacts, MediaRow, EqualTerms, Factor>(
       docs);
   EXPECT_NE(docs.find(fmt::format("## results.json, schema {}\n", kResultsVersion)), std::string::npos);
+}
+
+TEST(ResultsSchema, IsMadeOfTheDeclaredFields) {
+  const std::filesystem::path path = std::filesystem::path(GNOMON_TEST_DIR) / "../../docs/results.schema.json";
+  if (std::getenv("GNOMON_BLESS") != nullptr) writeTextFile(path, resultsJsonSchema());
+  EXPECT_EQ(readFile(path), resultsJsonSchema()) << "tools/bless writes it anew";
 }
 
 // `text` in a folder, read and written again.

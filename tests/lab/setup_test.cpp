@@ -32,8 +32,34 @@ TEST(ParseSize, TakesOneOrTwoNumbers) {
   EXPECT_EQ(parseSize("512").height, 512);
   EXPECT_EQ(parseSize("640x480").width, 640);
   EXPECT_EQ(parseSize("640x480").height, 480);
-  for (const char* text : {"", "x", "0", "-4", "5x", "x5", "5x5x5", "5y5", "99999", "1e3"})
+  for (const char* text : {" ", "x", "0", "-4", "5x", "x5", "5x5x5", "5y5", "99999", "1e3"})
     EXPECT_THROW(parseSize(text), UsageError) << text;
+}
+
+TEST(ParseSize, WithoutOneKeepsTheCamerasAspect) {
+  EXPECT_EQ(parseSize("").width, kDefaultSide);
+  EXPECT_EQ(parseSize("").height, kDefaultSide);
+  EXPECT_EQ(parseSize("", 16.0 / 9.0).width, 1024);
+  EXPECT_EQ(parseSize("", 16.0 / 9.0).height, 576);
+  EXPECT_EQ(parseSize("", 0.5).width, 512);
+  EXPECT_EQ(parseSize("", 0.5).height, 1024);
+  EXPECT_EQ(parseSize("", 1e-9).width, 1);
+  EXPECT_EQ(parseSize("64", 2.0).height, 64);  // what is asked for is what there is
+}
+
+TEST(UsualMap, SuitsTheLightAndTheOptions) {
+  EXPECT_STREQ(usualMapFor(LightType::Point, {}).name(), "cube");
+  EXPECT_STREQ(usualMapFor(LightType::Spot, {}).name(), "spot");
+  EXPECT_STREQ(usualMapFor(LightType::Directional, {}).name(), "directional");
+  const auto with = [](const char* flag, const char* value) {
+    for (const MapOption* option : allMapOptions())
+      if (option->flag() == flag) return MapOptions{{option, option->parsed(value)}};
+    ADD_FAILURE() << flag;
+    return MapOptions{};
+  };
+  EXPECT_STREQ(usualMapFor(LightType::Point, with("--warp", "psm")).name(), "spot");
+  EXPECT_STREQ(usualMapFor(LightType::Point, with("--cube-depth", "radial")).name(), "cube");
+  EXPECT_STREQ(usualMapFor(LightType::Point, with("--paraboloid-raster", "vertex")).name(), "paraboloid");
 }
 
 TEST_F(SetupTest, ACameraFromTheCommandLineLooksWhereItIsTold) {
@@ -54,7 +80,7 @@ TEST_F(SetupTest, MalformedCamerasAndLightsAreRefused) {
   EXPECT_NE(messageOf([&] { chooseLight(options_, tracer_, spotParameterization()); }).find(scene_.lights.front().name),
             std::string::npos);
   options_.light = "1,2,nan";
-  EXPECT_THROW(chooseLight(options_, tracer_, spotParameterization()), WorldError);
+  EXPECT_THROW(chooseLight(options_, tracer_, spotParameterization()), UsageError);
 }
 
 TEST_F(SetupTest, PlacesTooFarForFloatsAreRefusedWithTheFarthest) {

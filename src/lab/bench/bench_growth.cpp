@@ -5,7 +5,9 @@
 #include "truth/visibility.h"
 #include "vsv/volume_parameterization.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -88,9 +90,15 @@ Growth withTriangles(const gpu::DeviceOptions& device, const BenchOptions& optio
   return curves.take();
 }
 
+// A quarter of a side to twice it.
+std::vector<int64_t> sidesAround(int64_t side) {
+  return {std::max<int64_t>(side / 4, 2), std::max<int64_t>(side / 2, 4), std::max<int64_t>(side, 8), 2 * side};
+}
+
 Growth withMapSize(const Session& session, const BenchOptions& options) {
   Curves curves("map texels", "texels of all slices", options.repeats);
-  for (int64_t side = 256; side <= 2048; side *= 2) {
+  const auto cubeSide = std::lround(std::sqrt(static_cast<double>(options.mapTexels) / 6.0));
+  for (const int64_t side : sidesAround(std::clamp<int64_t>(cubeSide, 8, 4096))) {
     const int64_t texels = 6 * side * side;
     const int paraboloidSide = static_cast<int>(std::lround(std::sqrt(static_cast<double>(texels) / 2.0)));
     Subject cube(session, cubeParameterization(), static_cast<int>(side), options);
@@ -107,7 +115,8 @@ Growth withMapSize(const Session& session, const BenchOptions& options) {
 
 Growth withPictureSize(const Session& given, const gpu::DeviceOptions& device, const BenchOptions& options) {
   Curves curves("pixels", "pixels of the picture, square, cube of 6 x 512 x 512", options.repeats);
-  for (int64_t side = 256; side <= 2048; side *= 2) {
+  const int64_t larger = std::max(given.view().width, given.view().height);
+  for (const int64_t side : sidesAround(std::clamp<int64_t>(larger, 8, 4096))) {
     SetupOptions setup = given.setup();
     setup.size = fmt::format("{}", side);
     const Session session(device, setup);
@@ -126,6 +135,10 @@ Growth withVolumeSize(const Session& session, const BenchOptions& options) {
   Curves curves("voxels", "voxels of the shadow volume, direct", options.repeats);
   for (const VolumeSize& size : {VolumeSize{256, 256, 256}, VolumeSize{512, 512, 256}, VolumeSize{512, 512, 512},
                                  VolumeSize{1024, 1024, 512}, VolumeSize{1024, 1024, 1024}}) {
+    // A smaller volume asked for is a smaller measurement, but one point there always is.
+    const VolumeSize& asked = options.mapOptions.get(kVolumeSize);
+    const auto voxels = [](const VolumeSize& s) { return static_cast<double>(s.alpha) * s.theta * s.phi; };
+    if (voxels(size) > 2.0 * voxels(asked) && size.alpha > 256) continue;
     BenchOptions sized = options;
     sized.mapOptions = options.mapOptions.with(kVolumeSize(size)).with(kVolumeSource(VolumeSource::Direct));
     Subject volume(session, volumeParameterization(), 1024, sized);

@@ -1,8 +1,10 @@
 #include "lab/compare/compare.h"
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/progress.h"
 #include "judge/filtered_truth.h"
+#include "judge/texel_density.h"
 #include "lab/compare/compare_command.h"
 #include "lab/compare/equal_error.h"
 #include "lab/compare/robustness.h"
@@ -20,6 +22,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -38,6 +41,27 @@ TruthSummary summarize(const Parameterization& map, const GroundTruth& exact) {
           .marginFlipsHalf = exact.truth.marginFlipsHalf,
           .marginFlipsDouble = exact.truth.marginFlipsDouble,
           .receiversAndTraceMs = exact.ms};
+}
+
+// Of a texel. The rasterizer places a triangle's corners on a grid of 1/256 of one (Vulkan's subPixelPrecisionBits), so
+// that no map tells apart what lies nearer together; a larger margin would blur what a map can hold.
+constexpr double kLargestMargin = 1.0 / 256.0;
+
+// Whether it means the far side of a solid by the second depth, or by the depth of back faces.
+bool needsSolids(const BiasMethod& bias) {
+  return (bias.channels & (glsl::kChannelSecondDepth | glsl::kChannelBackDepth)) != 0;
+}
+
+// Twice the standard error of a median, as a share of it: of normal noise 1.2533 sigma / sqrt(n), where sigma is 1.4826
+// times the median deviation. Of few rounds, which tell nothing of it, kUnknownNoise.
+double noiseOf(const std::vector<double>& times) {
+  constexpr double kUnknownNoise = 0.1;
+  constexpr size_t kFewRounds = 5;
+  const double middle = median(times);
+  if (times.size() < kFewRounds || !(middle > 0.0)) return kUnknownNoise;
+  std::vector<double> deviations;
+  for (const double ms : times) deviations.push_back(std::abs(ms - middle));
+  return 2.0 * 1.2533 * 1.4826 * median(deviations) / std::sqrt(static_cast<double>(times.size())) / middle;
 }
 
 // A method, and after it its rows: one a filter, but of a tuned one the row of the filter it was tuned for.
@@ -113,7 +137,12 @@ class MapComparison {
   // False where the camera sees nothing that faces the light.
   bool run(Comparison& comparison) {
     step("exact shadow");
-    if (lit_.receivers().scored == 0) return false;
+    if (lit_.receivers().scored == 0) {
+      comparison.notes.push_back(
+          fmt::format("light '{}' lights nothing that the camera sees: no surface faces it (on a {} map)",
+                      lit_.source().name, parameterization_.name()));
+      return false;
+    }
     TruthSummary summary = summarize(parameterization_, lit_.groundTruth());
     step("map");
     const FittedMap& fitted = lit_.fitted();
@@ -121,15 +150,23 @@ class MapComparison {
     summary.zFar = fitted.zFar;
     summary.fitNote = fitted.note;
     summary.fitMs = lit_.fitMs();
+    summary.texel = medianTexel();
     for (const Filter* filter : options_.filters) filteredTruth(*filter);
 
-    std::vector<Entry> entries = chooseEntries();
-    for (Entry& entry : entries) {
-      entry.row = rows_.size();
-      step(entry.method.bias->name);
-      judgeEntry(entry);
+    std::vector<Entry> entries;
+    for (const BiasMethod* bias : options_.biases) {
+      if (isInterrupted()) break;
+      step(bias->name);
+      judge(entries, {.method = methodFor(lit_.view(), options_, *bias)});
     }
+    try {
+      if (options_.tune) judgeTuned(entries);
+    } catch (const Interrupted&) {  // out of a search, whose row is left out
+    }
+    if (entries.empty()) return false;
     timeRows(entries);
+    addNotes(summary, comparison.notes);
+    comparison.timeNoise = std::max(comparison.timeNoise, timeNoise_);
     comparison.truths.push_back(summary);
     comparison.maps.push_back(summarizeMap(fitted));
     comparison.rows.insert(comparison.rows.end(), rows_.begin(), rows_.end());
@@ -148,12 +185,46 @@ class MapComparison {
     return truths_.emplace(filter.id, std::move(truth)).first->second;
   }
 
-  // Each bias at the options' knobs, and where a search is wanted once more at its best.
-  std::vector<Entry> chooseEntries() {
-    std::vector<Entry> entries;
+  // Metres; over one in kTexelStride of the scored pixels.
+  std::optional<double> medianTexel() const {
+    constexpr size_t kTexelStride = 61;
+    if (!parameterization_.supportsFilters()) return std::nullopt;  // holds no depths
+    std::vector<double> widths;
+    const Receivers& receivers = lit_.receivers();
+    size_t seen = 0;
+    for (size_t i = 0; i < receivers.states.size(); ++i) {
+      if (receivers.states[i] != PixelState::Scored || seen++ % kTexelStride != 0) continue;
+      const auto density = texelDensity(lit_.fitted(), receivers.samples[i].positionW, receivers.samples[i].normalW);
+      if (density && *density > 0.0) widths.push_back(1.0 / std::sqrt(*density));
+    }
+    return widths.empty() ? std::nullopt : std::optional(median(widths));
+  }
+
+  void addNotes(const TruthSummary& summary, std::vector<std::string>& notes) const {
+    const auto add = [&](const std::string& note) {
+      if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+    };
+    if (summary.lit == 0)
+      add(fmt::format("light '{}' lights nothing that the camera sees: all of it lies in shadow", lit_.source().name));
+    if (summary.texel && summary.margin > kLargestMargin * *summary.texel)
+      add(
+          fmt::format("the exact shadow's margin, {:.2g} m, is {:.2g} of a texel of the {} map ({:.2g} m): what lies "
+                      "nearer to another surface than that counts as one with it, and is not judged; take a smaller "
+                      "--map-size",
+                      summary.margin, summary.margin / *summary.texel, summary.map, *summary.texel));
+    std::string names;
     for (const BiasMethod* bias : options_.biases)
-      entries.push_back({.method = methodFor(lit_.view(), options_, *bias)});
-    if (!options_.tune) return entries;
+      if (needsSolids(*bias)) names += (names.empty() ? "" : ", ") + std::string(bias->name);
+    if (!names.empty() && std::ranges::none_of(lit_.view().buffers().draws, &Draw::solid))
+      add(fmt::format(
+          "{}: made for solids, and the scene has none: no mesh is closed and not doubleSided (gnomon info); "
+          "--solids closed takes closed meshes for solids whatever the file says",
+          names));
+  }
+
+  // Each bias once more at its best, for each filter.
+  void judgeTuned(std::vector<Entry>& entries) {
+    throwIfInterrupted();
     std::optional<Robustness> robustness;
     if (options_.tuneElsewhere) robustness.emplace(lit_, options_);
     const size_t count = entries.size();
@@ -164,12 +235,18 @@ class MapComparison {
         if (knobsOf(*entries[i].method.bias).empty()) continue;
         step(fmt::format("{}, tuning", entries[i].method.bias->name));
         const TunedMethod tuned = tune(evaluator, entries[i].method);
-        entries.push_back({.method = tuned.method,
-                           .tuning = robustness ? robustness->judge(tuned, chosen) : tuningOf(tuned),
-                           .tunedFor = filter});
+        step(fmt::format("{}, tuned", entries[i].method.bias->name));
+        judge(entries, {.method = tuned.method,
+                        .tuning = robustness ? robustness->judge(tuned, chosen) : tuningOf(tuned),
+                        .tunedFor = filter});
       }
     }
-    return entries;
+  }
+
+  void judge(std::vector<Entry>& entries, Entry entry) {
+    entry.row = rows_.size();
+    judgeEntry(entry);
+    entries.push_back(std::move(entry));
   }
 
   void judgeEntry(const Entry& entry) {
@@ -231,12 +308,14 @@ class MapComparison {
   // tuned row costs what its untuned one costs.
   void timeRows(const std::vector<Entry>& entries) {
     const size_t filterCount = options_.filters.size();
+    const size_t biasCount = std::min(options_.biases.size(), entries.size());  // fewer where it is interrupted
     std::map<ChannelSet, std::vector<double>> build;
-    std::vector<std::vector<double>> shade(options_.biases.size() * filterCount);
+    std::vector<std::vector<double>> shade(biasCount * filterCount);
     for (int round = -1; round < options_.repeats; ++round) {  // round -1 warms up: pipelines compile at first use
+      if (round > 0 && isInterrupted()) break;
       step(round < 0 ? "timing, warm-up" : fmt::format("timing, {} of {}", round + 1, options_.repeats));
       std::map<ChannelSet, double> drawn;
-      for (const BiasMethod* bias : options_.biases)
+      for (const BiasMethod* bias : std::span(options_.biases).first(biasCount))
         if (!drawn.contains(bias->channels)) drawn[bias->channels] = lit_.redraw(bias->channels);
       if (round >= 0)
         for (const auto& [channels, ms] : drawn) build[channels].push_back(ms);
@@ -246,6 +325,10 @@ class MapComparison {
         if (round >= 0) shade[i].push_back(ms);
       }
     }
+    std::vector<double> noises;
+    for (const std::vector<double>& times : shade) noises.push_back(noiseOf(times));
+    for (const auto& [channels, times] : build) noises.push_back(noiseOf(times));
+    timeNoise_ = median(noises);
     for (const Entry& entry : entries) {
       const auto like = std::ranges::find(options_.biases, entry.method.bias) - options_.biases.begin();
       size_t at = entry.row;
@@ -289,13 +372,20 @@ class MapComparison {
   Progress& progress_;
   std::map<int, FilteredTruth> truths_;  // by filter
   std::vector<Row> rows_;
+  double timeNoise_ = 0.0;
 };
 
 // One more row for each method on each map: what all lights together get wrong. The map's texels are those of
-// one light.
+// one light. None of a method that was interrupted before its last light.
 void addSums(Comparison& comparison) {
   std::vector<Row> sums;
   for (const Row& row : comparison.rows) {
+    const auto isLike = [&](const Row& other) {
+      return other.map == row.map && other.bias == row.bias && other.filter == row.filter &&
+             other.isTuned() == row.isTuned();
+    };
+    const auto ofItsMap = std::ranges::count(comparison.truths, row.map, &TruthSummary::map);
+    if (std::ranges::count_if(comparison.rows, isLike) < ofItsMap) continue;
     const auto same = [&](const Row& sum) {
       return sum.map == row.map && sum.bias == row.bias && sum.filter == row.filter &&
              sum.tuning.has_value() == row.tuning.has_value();
@@ -326,6 +416,13 @@ void addSums(Comparison& comparison) {
     found->shadeMs += row.shadeMs;
   }
   comparison.rows.insert(comparison.rows.end(), sums.begin(), sums.end());
+}
+
+void finishRows(const Session& session, const CompareOptions& options, Comparison& comparison) {
+  for (Row& row : comparison.rows) {
+    row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
+    row.command = rowCommand(session.setup(), options, row);
+  }
 }
 
 int stepsPerMap(const CompareOptions& options) {
@@ -373,24 +470,42 @@ Comparison compare(const Session& session, const CompareOptions& options) {
   for (const Parameterization* map : options.maps) {
     const std::vector<Light> lights = chooseLights(session.setup(), session.tracer(), *map);
     for (size_t i = 0; i < lights.size(); ++i) jobs.push_back({map, lights[i], i});
+    if (session.setup().light != "all") continue;
+    for (const Light& light : session.scene().lights)
+      if (std::ranges::find(lights, light.name, &Light::name) == lights.end())
+        comparison.notes.push_back(
+            fmt::format("light '{}' is left out: a {} map is not made for its kind", light.name, map->name()));
   }
   const bool severalLights = jobs.size() > options.maps.size();
   int steps = 0;
   for (const Job& job : jobs) steps += stepsPerMap(optionsFor(options, *job.map));
-  Progress progress(options.progressTitle, steps);
-  for (const auto& [map, light, number] : jobs) {
-    const CompareOptions own = optionsFor(options, *map);
-    const std::string folder = severalLights ? fmt::format("{}/light{}", map->name(), number) : map->name();
-    MapComparison(session, own, passes, *map, light, folder, progress).run(comparison);
+  {
+    Progress progress(options.progressTitle, steps);
+    for (const auto& [map, light, number] : jobs) {
+      if (isInterrupted()) break;
+      const CompareOptions own = optionsFor(options, *map);
+      const std::string folder = severalLights ? fmt::format("{}/light{}", map->name(), number) : map->name();
+      MapComparison(session, own, passes, *map, light, folder, progress).run(comparison);
+      if (!options.soFar || comparison.rows.empty() || isInterrupted()) continue;
+      Comparison soFar = comparison;
+      soFar.isComplete = false;
+      finishRows(session, options, soFar);
+      options.soFar(soFar);
+    }
   }
-  if (comparison.rows.empty()) openLight(session, passes, *options.maps.front(), {});  // says why
+  if (comparison.rows.empty()) {
+    throwIfInterrupted();
+    openLight(session, passes, *options.maps.front(), {});  // says why
+  }
   if (severalLights) addSums(comparison);
-  if (options.recommend) measureRecommended(session, passes, options, comparison.rows);
-  for (Row& row : comparison.rows) {
-    row.frameMs = comparison.gbufferMs + row.buildMs + row.shadeMs;
-    row.command = rowCommand(session.setup(), options, row);
+  try {
+    throwIfInterrupted();
+    if (options.recommend) measureRecommended(session, passes, options, comparison.rows);
+    if (options.untilError) comparison.equalError = findEqualError(session, passes, options, comparison.gbufferMs);
+  } catch (const Interrupted&) {  // what was measured before stays
   }
-  if (options.untilError) comparison.equalError = findEqualError(session, passes, options, comparison.gbufferMs);
+  finishRows(session, options, comparison);
+  comparison.isComplete = !isInterrupted();
   return comparison;
 }
 

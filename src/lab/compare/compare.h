@@ -6,6 +6,7 @@
 #include "shadow/user_bias.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,6 +27,8 @@ struct CompareOptions : MapChoice, KnobChoices {
   std::string progressTitle = "compare";
   int repeats = 5;               // of every timed stage; at least 1
   std::filesystem::path outDir;  // empty: no pictures
+  // Called after each map and light with what there is by then, whole but for `complete`.
+  std::function<void(const Comparison&)> soFar;
 };
 
 // The options with the biases and filters that mean something on this map.
@@ -38,7 +41,8 @@ std::string mapSizeText(const FittedMap& fitted);
 size_t mapBytes(const FittedMap& fitted, ChannelSet channels);
 
 // All but the head of results.json, of which the time of the G-buffer is there. Throws WorldError. Long work shows
-// progress.
+// progress. Where it is interrupted (base/interrupt.h) the rows that are done are whole, and `complete` is false;
+// Interrupted where there are none.
 Comparison compare(const Session& session, const CompareOptions& options);
 
 }  // namespace gnomon

@@ -42,6 +42,7 @@ void addMaps(Words& words, const CompareOptions& options) {
     words.flag("--map-size", fmt::format("{}", options.mapSide));
   for (const ChosenOption& choice : options.mapOptions.choices())
     words.flag(choice.option->flag(), choice.option->textOf(choice.value));
+  if (options.exposure) words.flag("--exposure", fmt::format("{}", *options.exposure));
   if (options.cull != defaults.cull) words.flag("--cull", cullModeName(options.cull));
 }
 

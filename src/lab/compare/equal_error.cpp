@@ -1,6 +1,7 @@
 #include "lab/compare/equal_error.h"
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/progress.h"
 #include "lab/compare/recommendation.h"
 
@@ -123,6 +124,7 @@ std::vector<EqualErrorMethod> searchMap(const LightOnMap& lit, const CompareOpti
   for (const BiasMethod* bias : options.biases)
     searches.emplace_back(methodFor(lit.view(), options, *bias), *options.untilError, last);
   while (const std::optional<Round> round = nextRound(searches)) {
+    throwIfInterrupted();
     progress.step(fmt::format("{}: {} texels a side", lit.parameterization().name(), sideOf(round->step)));
     MapSetup setup = lit.setup();
     setup.side = sideOf(round->step);

@@ -1,6 +1,7 @@
 #include "lab/compare/render_picture.h"
 
 #include "base/error.h"
+#include "lab/compare/row_pictures.h"
 #include "lab/core/depth_images.h"
 #include "lab/picture/pictures.h"
 #include "planar/planar_map.h"
@@ -33,11 +34,14 @@ ImageF oneChannel(const Subject& subject, const std::vector<float>& values) {
 
 RenderedPicture beauty(const Subject& subject) {
   const ImageF radiance = subject.lit.picture(subject.method, subject.filter);
-  return {toSrgb8(radiance), radiance, {"R", "G", "B"}, {}};
+  return {toSrgb8(radiance), radiance, {{"R", "G", "B"}, "radiance, cd/m^2, times the exposure", true}, {}};
 }
 
 RenderedPicture grey(const Subject& subject, const std::vector<float>& values) {
-  return {visibilityPicture(subject.receivers(), values), oneChannel(subject, values), {"Y"}, {}};
+  return {visibilityPicture(subject.receivers(), values),
+          oneChannel(subject, values),
+          {{"Y"}, "share of the light that arrives, 0 to 1"},
+          {}};
 }
 
 RenderedPicture visibility(const Subject& subject) {
@@ -52,7 +56,7 @@ RenderedPicture difference(const Subject& subject) {
   const std::vector<float> exact = subject.truth(), predicted = subject.visibility();
   ImageF values = oneChannel(subject, predicted);
   for (size_t i = 0; i < exact.size(); ++i) values.values[i] -= exact[i];
-  return {differencePicture(subject.receivers(), predicted, exact), values, {"Y"}, {}};
+  return {differencePicture(subject.receivers(), predicted, exact), values, {{"Y"}, "visibility - truth, -1 to 1"}, {}};
 }
 
 RenderedPicture labels(const Subject& subject) {
@@ -62,12 +66,14 @@ RenderedPicture labels(const Subject& subject) {
                                         subject.method.bias->name, lit.fitted().map.width, lit.fitted().map.height);
   std::vector<float> numbers;
   for (const Label label : judged.labels.labels) numbers.push_back(static_cast<float>(label));
-  return {
-      labelPicture(lit.receivers(), lit.truth(), judged.labels, title), oneChannel(subject, numbers), {"label"}, {}};
+  return {labelPicture(lit.receivers(), lit.truth(), judged.labels, title),
+          oneChannel(subject, numbers),
+          {{"label"}, kLabelUnits},
+          {}};
 }
 
 RenderedPicture metres(const ImageF& depth) {
-  return {depthPicture(depth), depth, {"metres"}, {}};
+  return {depthPicture(depth), depth, {{"metres"}, "metres"}, {}};
 }
 
 DepthImages depthsOf(LightOnMap& lit, ChannelSet channels) {
@@ -111,7 +117,7 @@ RenderedPicture ids(const Subject& subject) {
     values[0] = static_cast<float>(id.instancePlusOne);
     values[1] = id.instancePlusOne == 0 ? 0.0f : static_cast<float>(id.triangle + 1);
   }
-  return {idPicture(data), data, {"instance", "triangle"}, {}};
+  return {idPicture(data), data, {{"instance", "triangle"}, "number, from 1; 0 none"}, {}};
 }
 
 RenderedPicture texelDensity(const Subject& subject) {
@@ -121,7 +127,10 @@ RenderedPicture texelDensity(const Subject& subject) {
   const std::string title = fmt::format("{}, {} x {} x {} texels, fit {}, warp {}", lit.parameterization().name(),
                                         lit.fitted().map.sliceCount, setup.side, setup.side,
                                         setup.options.text(kWindowFit), setup.options.text(kWarp));
-  return {densityPicture(lit.receivers(), densities, title), oneChannel(subject, densities), {"texels_per_m2"}, {}};
+  return {densityPicture(lit.receivers(), densities, title),
+          oneChannel(subject, densities),
+          {{"texels_per_m2"}, "1/m^2"},
+          {}};
 }
 
 struct ShowChoice {
@@ -156,6 +165,7 @@ RenderedPicture renderPicture(const Session& session, const CompareOptions& opti
   const Method method = methodFor(session, options, *options.biases.front());
   RenderedPicture picture = shown->draw({lit, method, filterFor(options, *options.filters.front())});
   picture.note = lit.fitted().note;
+  if (picture.channels.isColour) picture.exposure = lit.exposureFactor();
   return picture;
 }
 

@@ -10,10 +10,11 @@
 namespace gnomon {
 
 struct RenderedPicture {
-  Image8 png;                         // for people
-  ImageF exr;                         // linear data
-  std::vector<std::string> channels;  // of the latter
-  std::string note;                   // FittedMap::note
+  Image8 png;             // for people
+  ImageF exr;             // linear data
+  ExrChannels channels;   // of the latter
+  std::string note;       // FittedMap::note
+  double exposure = 0.0;  // per cd/m^2 (LightOnMap::exposureFactor), of a picture of light; else 0
 };
 
 // What can be shown, by name: beauty, visibility, truth, ...

@@ -9,6 +9,7 @@ std::string resultsJson(const Session& session, const Comparison& comparison, co
   Comparison whole = comparison;
   static_cast<ResultsHead&>(whole) = resultsHead(session, command, comparison.gbufferMs);
   whole.files = comparison.files;
+  whole.isComplete = comparison.isComplete;
   return resultsText(whole);
 }
 

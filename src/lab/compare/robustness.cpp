@@ -1,5 +1,7 @@
 #include "lab/compare/robustness.h"
 
+#include "base/interrupt.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -107,6 +109,7 @@ Tuning tuningOf(const TunedMethod& tuned) {
   tuning.value = valueOf(tuned.method.params, *tuned.method.bias, knob);
   tuning.unit = unitName(knob.unit);
   tuning.evaluations = tuned.evaluations;
+  tuning.atEnd = tuned.atEnd;
   return tuning;
 }
 
@@ -149,6 +152,7 @@ Elsewhere elsewhereOf(const Session& session, ShadowPasses& passes, const Compar
   const Filter& filter = **std::ranges::find(options.filters, row.filter, &Filter::name);
   Elsewhere elsewhere;
   for (const Light& light : chooseLights(session.setup(), session.tracer(), map)) {
+    throwIfInterrupted();
     const LightOnMap lit(session, passes, map, light, mapSetupOf(options, map));
     if (lit.receivers().scored == 0) continue;
     const Elsewhere one = Robustness(lit, options).judge(methodFor(session, options, bias), filterFor(options, filter));

@@ -31,7 +31,7 @@ Pictures writeMapPictures(const gpu::Device& device, const Receivers& receivers,
   const auto writeDepth = [&](const char* name, const ImageF& metres) {
     const std::string stem = mapName + "/" + name;
     writePng(outDir / (stem + ".png"), depthPicture(metres));
-    writeExr(outDir / (stem + ".exr"), metres, {"metres"});
+    writeExr(outDir / (stem + ".exr"), metres, {.names = {"metres"}, .units = "metres"});
     pictures.emplace_back(name, stem + ".png");
   };
   const DepthImages depth = depthInMetres(device, occluders);
@@ -66,8 +66,10 @@ Pictures writeRowPictures(const GroundTruth& exact, const LabelledResult& judged
   writePng(outDir / (stem + ".visibility.png"), visibilityPicture(exact.receivers, visibility));
   writePng(outDir / (stem + ".beauty.png"), beauty);
   writePng(outDir / (stem + ".difference.png"), differencePicture(exact.receivers, visibility, truth.visibility));
-  writeExr(outDir / (stem + ".exr"), dataImage(exact, judged, visibility, truth.visibility),
-           {"visibility", "truth", "label"});
+  writeExr(
+      outDir / (stem + ".exr"), dataImage(exact, judged, visibility, truth.visibility),
+      {.names = {"visibility", "truth", "label"},
+       .units = std::string("visibility and truth: share of the light that arrives, 0 to 1; label: ") + kLabelUnits});
   return {{"labels", labels},
           {"visibility", stem + ".visibility.png"},
           {"beauty", stem + ".beauty.png"},

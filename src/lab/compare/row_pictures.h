@@ -5,6 +5,10 @@
 
 namespace gnomon {
 
+// Of the numbers in an EXR's channel "label" (truth/labels.h).
+inline constexpr const char* kLabelUnits =
+    "0 not scored, 1 agree, 2 acne, 3 leak, 4 edge_shadow, 5 edge_light, 6 uncovered";
+
 // The truth through one filter.
 struct FilteredTruth {
   std::vector<float> visibility;  // one a pixel

@@ -153,10 +153,11 @@ std::string tuningTable(const Comparison& comparison) {
   for (const Row& row : comparison.rows) {
     if (!row.tuning || row.isSum) continue;
     const Tuning& tuning = *row.tuning;
-    text += fmt::format("tuned {}{} {}{}: {} after {} evaluations; {} {}", row.map,
+    text += fmt::format("tuned {}{} {}{}: {}{} after {} evaluations; {} {}", row.map,
                         hasSums(comparison) ? ", " + row.light + "," : "", row.bias,
-                        row.isFiltered() ? ", " + row.filter : "", knobText(row), tuning.evaluations,
-                        row.isFiltered() ? "RMSE" : "bias error",
+                        row.isFiltered() ? ", " + row.filter : "", knobText(row),
+                        tuning.atEnd.empty() ? "" : fmt::format(" (the {} end of what was tried)", tuning.atEnd),
+                        tuning.evaluations, row.isFiltered() ? "RMSE" : "bias error",
                         error(row.biasError(), row.isFiltered() ? std::optional(row.rmse) : std::nullopt));
     const auto add = [&](const std::string& where, const Transfer& there) {
       text += fmt::format("; {} {} (best there {})", where, error(there.biasError, there.rmse),
@@ -175,24 +176,24 @@ std::string comparisonHeader(const Session& session, const Comparison& compariso
                   triangleCount(session.scene()), computeBounds(session.scene()).diagonal(), session.camera().name,
                   session.view().width, session.view().height, session.device().info().name);
   for (const TruthSummary& truth : comparison.truths) {
-    const double flips = static_cast<double>(std::max(truth.marginFlipsHalf, truth.marginFlipsDouble));
     text += fmt::format(
-        "{} map of light '{}': {} pixels scored ({} lit), {} face away, {} outside the cone; instrument "
-        "error {:.4f}% "
-        "(margin {:.2g} m halved {}, doubled {})\n",
-        truth.map, truth.light.name, truth.scored, truth.lit, truth.facingAway, truth.outsideCone,
-        100.0 * flips / static_cast<double>(truth.scored), truth.margin, truth.marginFlipsHalf,
-        truth.marginFlipsDouble);
+        "{} map of light '{}': {} pixels face the light and are scored, {} of them lit; not scored: {} that face away, "
+        "{} "
+        "outside a spot's cone; with half or twice the exact shadow's margin ({:.2g} m) {} or {} pixels change\n",
+        truth.map, truth.light.name, truth.scored, truth.lit, truth.facingAway, truth.outsideCone, truth.margin,
+        truth.marginFlipsHalf, truth.marginFlipsDouble);
     if (!truth.fitNote.empty()) text += truth.fitNote + "\n";
   }
   std::string last;
   for (const MapSummary& map : comparison.maps) {
     if (!map.solidAngles || map.map == last) continue;
     last = map.map;
-    text += fmt::format("{} map, {} x {} x {} texels: from {:.3g} to {:.3g} steradians, 1 to {:.2f}\n", map.map,
-                        map.layers, map.width, map.height, map.solidAngles->smallest, map.solidAngles->largest,
-                        map.solidAngles->largest / map.solidAngles->smallest);
+    text += fmt::format(
+        "{} map, {} x {} x {} texels: each sees {:.3g} to {:.3g} steradians (the largest {:.2f} times the smallest)\n",
+        map.map, map.layers, map.width, map.height, map.solidAngles->smallest, map.solidAngles->largest,
+        map.solidAngles->largest / map.solidAngles->smallest);
   }
+  for (const std::string& note : comparison.notes) text += "note: " + note + "\n";
   return text;
 }
 

@@ -18,7 +18,7 @@ std::string comparisonTable(const Comparison& comparison, const TableLayout& lay
 // to guess beats the best constant and slope. Empty where nothing was tuned.
 std::string tuningTable(const Comparison& comparison);
 
-// What was measured, in two or three lines: scene, light, camera, the instrument's own error.
+// What was measured, in two or three lines: scene, light, camera, what depends on the exact shadow's margin, notes.
 std::string comparisonHeader(const Session& session, const Comparison& comparison);
 
 }  // namespace gnomon

@@ -1,5 +1,6 @@
 #include "lab/compare/tune.h"
 
+#include "base/interrupt.h"
 #include "judge/filtered_truth.h"
 
 #include <algorithm>
@@ -27,10 +28,13 @@ class KnobSearch {
     std::vector<std::pair<float, double>> points(seen_.begin(), seen_.end());
     const auto [first, last] = bestRun(points);
     float value = points[(first + last) / 2].first;
+    const bool isPerfect = points[first].second == 0.0, isAnything = first == 0 && last + 1 == points.size();
+    atEnd_ = isPerfect || isAnything ? "" : first == 0 ? "lower" : last + 1 == points.size() ? "upper" : "";
     if (first == last && first > 0 && first + 1 < points.size())
       value = golden(points[first - 1].first, value, points[first + 1].first);
     return with(value);
   }
+  const char* atEnd() const { return atEnd_; }  // TunedMethod::atEnd, once best() is found
 
  private:
   float gridValue(int i) const {
@@ -97,12 +101,14 @@ class KnobSearch {
   Method method_;
   const Knob& knob_;
   float unit_;
+  const char* atEnd_ = "";
   std::map<float, double> seen_;
 };
 
 }  // namespace
 
 double TuningEvaluator::error(const Method& method) {
+  throwIfInterrupted();
   return isFiltered() ? rmse(method) : static_cast<double>(biasErrors(method));
 }
 
@@ -160,8 +166,11 @@ TunedMethod tune(TuningEvaluator& evaluator, const Method& start) {
   const std::vector<Knob>& knobs = knobsOf(*start.bias);
   const int rounds = knobs.size() > 1 ? 2 : 1;
   for (int round = 0; round < rounds; ++round)
-    for (const Knob& knob : knobs)
-      tuned.method = KnobSearch(evaluator, tuned.method, knob, evaluator.sceneScale()).best();
+    for (const Knob& knob : knobs) {
+      KnobSearch search(evaluator, tuned.method, knob, evaluator.sceneScale());
+      tuned.method = search.best();
+      if (&knob == &knobs.front()) tuned.atEnd = search.atEnd();
+    }
   tuned.error = evaluator.error(tuned.method);
   tuned.evaluations = evaluator.evaluations() - before;
   return tuned;

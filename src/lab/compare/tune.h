@@ -44,11 +44,12 @@ struct TunedMethod {
   Method method;
   double error = 0.0;  // TuningEvaluator::error
   int evaluations = 0;
+  const char* atEnd = "";  // of the first knob: "lower" or "upper" where the value is the last that was tried, and errs
 };
 
 // One knob after another, each searched on a logarithmic grid of kTuneGrid values, its default and its lower
 // bound, then by golden section between the best one's neighbours; a method with two knobs goes round twice.
-// Where several neighbouring values are equally good, the middle one is taken. Deterministic.
+// Where several neighbouring values are equally good, the middle one is taken. Deterministic. Throws Interrupted.
 inline constexpr int kTuneGrid = 13;
 TunedMethod tune(TuningEvaluator& evaluator, const Method& start);
 

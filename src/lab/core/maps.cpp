@@ -52,4 +52,19 @@ std::vector<const Parameterization*> parseMaps(const std::string& list) {
   return chosen;
 }
 
+const Parameterization& usualMapFor(LightType type, const MapOptions& options) {
+  std::vector<const Parameterization*> maps = {&spotParameterization()};
+  if (type == LightType::Point)
+    maps = {&cubeParameterization(), &spotParameterization(), &paraboloidParameterization()};
+  if (type == LightType::Directional) maps = {&directionalParameterization()};
+  const auto hasAll = [&](const Parameterization* map) {
+    const std::vector<const MapOption*> own = map->options();
+    return std::ranges::all_of(options.choices(), [&](const ChosenOption& choice) {
+      return std::ranges::find(own, choice.option) != own.end();
+    });
+  };
+  const auto found = std::ranges::find_if(maps, hasAll);
+  return **(found == maps.end() ? maps.begin() : found);
+}
+
 }  // namespace gnomon

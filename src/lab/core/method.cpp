@@ -24,7 +24,8 @@ int mapSideOf(const MapChoice& choice, const Parameterization& map) {
 }
 
 MapSetup mapSetupOf(const MapChoice& choice, const Parameterization& map) {
-  return {.side = mapSideOf(choice, map), .options = choice.mapOptions, .cull = choice.cull};
+  return {
+      .side = mapSideOf(choice, map), .options = choice.mapOptions, .cull = choice.cull, .exposure = choice.exposure};
 }
 
 Method methodFor(const SceneView& view, const KnobChoices& choices, const BiasMethod& bias) {

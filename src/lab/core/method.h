@@ -12,6 +12,7 @@ struct MapChoice {
   int64_t mapTexels = 0;  // of all slices together; not 0: picks each map's side instead of mapSide
   MapOptions mapOptions;
   CullMode cull = CullMode::Solids;
+  std::optional<float> exposure;  // of pictures, per cd/m^2; absent: chosen for each
 };
 
 // The side of a map's slices, texels. Throws UsageError outside 2..16384.

@@ -16,8 +16,9 @@ class Session : public SceneView {
   const SetupOptions& setup() const { return setup_; }
 
  private:
+  Session(const gpu::DeviceOptions& device, const SetupOptions& options, std::shared_ptr<const TracedScene> traced);
   Session(const gpu::DeviceOptions& device, const SetupOptions& options, std::shared_ptr<const TracedScene> traced,
-          const PictureSize& size);
+          const Camera& camera);
 
   SetupOptions setup_;
 };

@@ -4,6 +4,7 @@
 #include "base/suggest.h"
 #include "judge/ground_truth.h"
 #include "lab/core/default_view.h"
+#include "scene/generate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,9 @@ std::string whatItHas(const std::string& wanted, const std::vector<T>& things) {
                          : fmt::format("did you mean {}? It has {}", nearest, namesOf(things));
 }
 
+// As in glTF: a spot that shines into half of all directions.
+constexpr double kWidestConeDegrees = 180.0;
+
 // The scene's own light that suits the map, or the default one.
 Light lightFor(const Tracer& tracer, const Parameterization& map) {
   const Light* first = firstLightFor(tracer.scene(), map);
@@ -39,7 +43,7 @@ Light lightFor(const Tracer& tracer, const Parameterization& map) {
 }
 
 // The thing that `text` names: by its name, its number ("#2"), or the end of its node's path ("lamp" or "rig/lamp" of
-// "yard/rig/lamp"). Null where there is none. Throws WorldError where several paths end so.
+// "yard/rig/lamp"). Null where there is none. Throws UsageError where several paths end so.
 template <typename T>
 const T* findNamed(const std::vector<T>& things, const std::string& flag, const std::string& text) {
   const auto named = std::ranges::find(things, text, &T::name);
@@ -56,7 +60,7 @@ const T* findNamed(const std::vector<T>& things, const std::string& flag, const 
     found = &thing;
   }
   if (ending.size() > 1)
-    throw WorldError(fmt::format("{} {}: several are called so; write one of {}", flag, text, namesOf(ending)));
+    throw UsageError(fmt::format("{} {}: several are called so; write one of {}", flag, text, namesOf(ending)));
   return found;
 }
 
@@ -94,7 +98,7 @@ Light findLight(const Scene& scene, const std::string& text) {
   }
   const std::optional<glm::dvec3> position = tryVec3(text);
   if (!position)
-    throw WorldError(fmt::format("--light {}: the scene has no light of this name; {}; or write x,y,z", text,
+    throw UsageError(fmt::format("--light {}: the scene has no light of this name; {}; or write x,y,z", text,
                                  whatItHas(text, scene.lights)));
   checkPlace("--light", *position);
   return lightAt(scene, placed(*position), text);
@@ -155,12 +159,13 @@ Light asAsked(Light light, const SetupOptions& options, const Parameterization& 
     if (light.type == LightType::Point) light.type = LightType::Spot;
   }
   if (options.coneDegrees) {
-    if (!(*options.coneDegrees >= 1.0 && *options.coneDegrees <= 170.0))
-      throw UsageError(fmt::format("--cone {}: a spot's full angle is 1..170 degrees", *options.coneDegrees));
+    if (!(*options.coneDegrees >= 1.0 && *options.coneDegrees <= kWidestConeDegrees))
+      throw UsageError(
+          fmt::format("--cone {}: a spot's full angle is 1..{:g} degrees", *options.coneDegrees, kWidestConeDegrees));
     light.outerConeRad = static_cast<float>(glm::radians(0.5 * *options.coneDegrees));
   }
   if (map.supportsLight(light.type) == LightSupport::No)
-    throw WorldError(
+    throw UsageError(
         fmt::format("--light {}: a directional light has no position, which a {} map needs; use --maps directional, "
                     "another light, or x,y,z",
                     light.name, map.name()));
@@ -181,11 +186,31 @@ std::vector<std::string> setupWords(const SetupOptions& options) {
   if (options.coneDegrees) add("--cone", fmt::format("{}", *options.coneDegrees), "");
   if (options.intensity) add("--intensity", fmt::format("{}", *options.intensity), "");
   add("--size", options.size, defaults.size);
+  for (const std::string& name : options.choice.casters) add("--casters", name, "");
+  for (const std::string& name : options.choice.excluded) add("--exclude", name, "");
+  if (options.choice.solids != defaults.choice.solids) add("--solids", solidsName(options.choice.solids), "");
+  if (options.gltf.scene) add("--scene-index", fmt::format("{}", *options.gltf.scene), "");
+  for (const std::filesystem::path& folder : options.gltf.allowedFolders) add("--allow-path", folder.string(), "");
   return words;
 }
 
-PictureSize parseSize(const std::string& text) {
+Scene openScene(const SetupOptions& options) {
+  if (options.gltf.scene && findGeneratedScene(options.scene) != nullptr)
+    throw UsageError(
+        fmt::format("--scene-index {}: {} is a generated scene, and only one", *options.gltf.scene, options.scene));
+  Scene scene = openScene(options.scene, options.gltf);
+  applyChoice(scene, options.choice);
+  return scene;
+}
+
+PictureSize parseSize(const std::string& text, double aspect) {
   PictureSize size;
+  if (text.empty()) {
+    const double ratio = aspect > 0.0 ? aspect : 1.0;
+    const auto shorter = [](double share) { return std::max(static_cast<int>(std::lround(kDefaultSide * share)), 1); };
+    if (ratio >= 1.0) return {.width = kDefaultSide, .height = shorter(1.0 / ratio)};
+    return {.width = shorter(ratio), .height = kDefaultSide};
+  }
   char by = 0, rest = 0;
   std::istringstream in(text);
   in >> size.width;
@@ -237,7 +262,7 @@ Camera chooseCamera(const SetupOptions& options, const Tracer& tracer) {
   }
   if (const Camera* named = findNamed(scene.cameras, "--camera", options.camera)) return *named;
   if (options.camera.find(':') != std::string::npos) return parseCamera(scene, options.camera);
-  throw WorldError(
+  throw UsageError(
       fmt::format("--camera {}: the scene has no camera of this name; {}; or write "
                   "eye:x,y,z,target:x,y,z[,fov:degrees]",
                   options.camera, whatItHas(options.camera, scene.cameras)));

@@ -3,6 +3,7 @@
 
 #include "base/parse.h"
 #include "scene/gltf.h"
+#include "scene/scene_choice.h"
 #include "shadow/parameterization.h"
 #include "truth/tracer.h"
 
@@ -19,8 +20,9 @@ struct SetupOptions {
   std::string direction;  // x,y,z: the way the light shines; empty: the light's own, else where the camera looks
   std::optional<double> coneDegrees;  // full angle of a spot
   std::optional<double> intensity;    // candela or lux, in place of the light's own
-  std::string size = "1024";          // N or WxH, pixels
-  GltfOptions gltf;                   // which files a scene may read
+  std::string size;                   // N or WxH, pixels; empty: kDefaultSide, in the camera's own aspect
+  GltfOptions gltf;                   // which of a file's scenes, and which files it may read
+  SceneChoice choice;                 // casters and solids
 };
 
 // The words of a command line that choose the same: the scene, and flags for what is not at its default.
@@ -31,11 +33,17 @@ struct PictureSize {
   int height = 0;
 };
 
-// "640x480" or "512". Throws UsageError outside 1..16384.
-PictureSize parseSize(const std::string& text);
+inline constexpr int kDefaultSide = 1024;  // pixels, of the longer side
 
-// The light a map is made for. Throws UsageError (malformed) or WorldError (none of that name: lists those
-// there are; or one that the map cannot take).
+// "640x480" or "512"; empty: kDefaultSide on the longer side, and on the other what `aspect` (width over height; 0:
+// any) makes of it. Throws UsageError outside 1..16384.
+PictureSize parseSize(const std::string& text, double aspect = 0.0);
+
+// The scene that they name, as they choose it. Throws WorldError and UsageError.
+Scene openScene(const SetupOptions& options);
+
+// The light a map is made for. Throws UsageError: malformed; none of that name, with those there are; one that the map
+// cannot take.
 Light chooseLight(const SetupOptions& options, const Tracer& tracer, const Parameterization& map);
 
 // The same; and for --light all every light of the scene that the map is made for (where there is none, those
@@ -45,7 +53,7 @@ std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& trace
 // The lights that the command line asks for, whatever the map: the one it names, else the scene's.
 std::vector<Light> lightsAsked(const SetupOptions& options, const Tracer& tracer);
 
-// Throws UsageError (malformed) or WorldError (none of that name: lists those there are).
+// Throws UsageError (malformed, or none of that name: lists those there are).
 Camera chooseCamera(const SetupOptions& options, const Tracer& tracer);
 
 }  // namespace gnomon

@@ -1,5 +1,6 @@
 #include "lab/fog/fog.h"
 
+#include "base/interrupt.h"
 #include "base/progress.h"
 #include "lab/fog/fog_motion.h"
 #include "lab/fog/fog_pictures.h"
@@ -108,18 +109,21 @@ FogResult runFog(const Session& session, const FogOptions& options) {
       result.inScattered.push_back(measured[i].inScattered);
     }
   }
-  if (options.truth) {
-    KeptReference kept = referenceFor(session, result.view, options.reference, options.cache);
-    result.reference = std::move(kept.reference);
-    result.referenceFromCache = kept.fromCache;
+  try {
+    if (options.truth) {
+      KeptReference kept = referenceFor(session, result.view, options.reference, options.cache);
+      result.reference = std::move(kept.reference);
+      result.referenceFromCache = kept.fromCache;
+    }
+  } catch (const Interrupted&) {  // pictures without a reference
   }
-  result.exposure =
-      exposureFor(result.view, result.reference ? result.reference->inScattered : result.inScattered.front());
-  result.mediumExposure =
-      mediumExposureFor(result.reference ? result.reference->inScattered : result.inScattered.front());
+  const ImageF& best = result.reference ? result.reference->inScattered : result.inScattered.front();
+  result.exposure = options.exposure ? FogExposure{*options.exposure} : exposureFor(result.view, best);
+  result.mediumExposure = options.exposure ? FogExposure{*options.exposure} : mediumExposureFor(best);
   if (result.reference) judgeRows(result);
   if (options.motion) runMotion(session, passes, options, result);
   if (!options.outDir.empty()) writePictures(options, result);
+  result.isComplete = !isInterrupted();
   return result;
 }
 

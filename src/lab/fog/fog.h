@@ -6,15 +6,22 @@
 #include "lab/fog/fog_view.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 namespace gnomon {
 
-// A straight path that the light or the camera takes through the frames.
+// What changes through the frames: the lights or the camera move along a line, the lights go round the scene's centre,
+// the density is another one each.
 struct FogMotion {
   int frames = 0;
-  bool camera = false;      // else the lights
+  bool camera = false;      // moves, else the lights
   glm::vec3 offsetW{0.0f};  // metres, from the first frame to the last
+  double degrees = 0.0;     // of the lights about `axisW`, from the first frame to the last; 0: no orbit
+  glm::vec3 axisW{0.0f};    // unit
+  std::function<std::shared_ptr<const DensityGrid>(int frame)> densityAt;  // empty: one for all
+
+  bool moves() const { return degrees != 0.0 || offsetW != glm::vec3(0.0f); }
 };
 
 struct FogOptions {
@@ -30,7 +37,8 @@ struct FogOptions {
   MediaReferenceOptions reference;
   int repeats = 5;  // of every timed stage; at least 1
   std::optional<FogMotion> motion;
-  std::filesystem::path outDir;  // empty: no pictures
+  std::optional<float> exposure;  // of all pictures, per cd/m^2; absent: chosen for each run
+  std::filesystem::path outDir;   // empty: no pictures
 };
 
 // The most frames of a motion; four digits name them.
@@ -49,11 +57,15 @@ struct FogResult {
   std::optional<WorstPlace> worst;     // where the first row errs most
   Pictures pictures;                   // of the reference
   FileSums files;                      // of the folder, when all are written
+  int framesDone = 0;                  // of --frames
+  Pictures framePictures;              // some of them, "frame N of METHOD"
   std::string motionNote;              // of --frames: where the video is, or why there is none
+  bool isComplete = true;              // false: it was interrupted
   double gbufferMs = 0.0;
 };
 
-// Throws WorldError and UsageError. Long work shows progress.
+// Throws WorldError and UsageError. Long work shows progress. Where it is interrupted (base/interrupt.h) what is done
+// is there: pictures without a reference, or the frames by then.
 FogResult runFog(const Session& session, const FogOptions& options);
 
 }  // namespace gnomon

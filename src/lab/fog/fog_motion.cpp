@@ -1,11 +1,14 @@
 #include "lab/fog/fog_motion.h"
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/progress.h"
+#include "base/suggest.h"
 #include "lab/fog/fog_reference.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -15,6 +18,7 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 extern char** environ;
 
@@ -25,6 +29,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFramesPerSecond = 24;
+constexpr double kMostOrbitDegrees = 36000.0;  // a hundred times round
+constexpr int kMostFramesShown = 6;            // on the page, of a method
+
+// Evenly over all: the first, the last, and what lies between.
+bool isShown(int frame, int frames) {
+  const int shown = std::min(frames, kMostFramesShown);
+  for (int i = 0; i < shown; ++i)
+    if (frame == (shown == 1 ? 0 : i * (frames - 1) / (shown - 1))) return true;
+  return false;
+}
 
 fs::path findProgram(const char* name) {
   const char* path = std::getenv("PATH");
@@ -90,7 +104,8 @@ Moment momentAt(const SceneView& scene, const std::vector<Light>& lights, const 
     moment.moved = std::make_unique<SceneView>(scene, camera);
     moment.scene = moment.moved.get();
   } else {
-    for (Light& light : moment.lights) light.positionW = placeAt(motion, light.positionW, frame);
+    const glm::vec3 centerW = scene.tracer().boundsW().center();
+    for (Light& light : moment.lights) light = lightAtFrame(motion, light, centerW, frame);
   }
   return moment;
 }
@@ -101,13 +116,52 @@ glm::vec3 placeAt(const FogMotion& motion, const glm::vec3& startW, int frame) {
   return startW + motion.offsetW * (static_cast<float>(frame) / static_cast<float>(motion.frames - 1));
 }
 
+Light lightAtFrame(const FogMotion& motion, const Light& start, const glm::vec3& centerW, int frame) {
+  Light light = start;
+  if (motion.degrees == 0.0) {
+    light.positionW = placeAt(motion, start.positionW, frame);
+    return light;
+  }
+  const double angle = glm::radians(motion.degrees) * frame / (motion.frames - 1);
+  const glm::dmat3 turned(glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(motion.axisW)));
+  light.positionW = centerW + glm::vec3(turned * glm::dvec3(start.positionW - centerW));
+  light.directionW = glm::vec3(turned * glm::dvec3(start.directionW));
+  return light;
+}
+
+namespace {
+
+// What follows "orbit:".
+FogMotion parseOrbit(const std::string& text, const std::string& orbit, int frames) {
+  const auto refuse = [&] {
+    return UsageError(fmt::format(
+        "--move {}: write orbit:AXIS,DEGREES, where AXIS is x, y, z or a vector x,y,z, as in orbit:y,360", text));
+  };
+  const size_t comma = orbit.rfind(',');
+  if (comma == std::string::npos) throw refuse();
+  const std::string axis = orbit.substr(0, comma);
+  const std::optional<double> degrees = parseNumber(orbit.substr(comma + 1));
+  const std::optional<glm::dvec3> vector = axis == "x"   ? glm::dvec3(1, 0, 0)
+                                           : axis == "y" ? glm::dvec3(0, 1, 0)
+                                           : axis == "z" ? glm::dvec3(0, 0, 1)
+                                                         : tryVec3(axis);
+  if (!degrees || !vector || *vector == glm::dvec3(0.0)) throw refuse();
+  if (*degrees == 0.0 || std::abs(*degrees) > kMostOrbitDegrees)
+    throw UsageError(fmt::format("--move {}: give degrees other than 0, at most {:g}", text, kMostOrbitDegrees));
+  return {.frames = frames, .degrees = *degrees, .axisW = glm::vec3(glm::normalize(*vector))};
+}
+
+}  // namespace
+
 FogMotion parseMotion(const std::string& text, int frames) {
   const size_t colon = text.find(':');
   const std::string what = text.substr(0, colon);
-  if (colon == std::string::npos || (what != "light" && what != "camera"))
-    throw UsageError(fmt::format("--move {}: write light:x,y,z or camera:x,y,z, in metres", text));
+  if (colon == std::string::npos || (what != "light" && what != "camera" && what != "orbit"))
+    throw UsageError(fmt::format("--move {}: write light:x,y,z or camera:x,y,z, in metres, or orbit:AXIS,DEGREES; {}",
+                                 text, chooseFrom(what, "light, camera, orbit")));
   if (frames < 2 || frames > kMostFrames)
     throw UsageError(fmt::format("--frames {}: give 2..{} frames", frames, kMostFrames));
+  if (what == "orbit") return parseOrbit(text, text.substr(colon + 1), frames);
   FogMotion motion{
       .frames = frames, .camera = what == "camera", .offsetW = glm::vec3(parsePlace("--move", text.substr(colon + 1)))};
   if (motion.offsetW == glm::vec3(0.0f))
@@ -128,19 +182,31 @@ void runMotion(const SceneView& scene, ShadowPasses& passes, const FogOptions& o
   std::vector<ImageF> before(stems.size());
   std::vector<double> beyond(result.rows.size(), 0.0);
   double meanSum = 0.0;
+  FogMedium medium = options.medium;
+  if (motion.densityAt) medium.sigmaS = result.view.medium.sigmaS;  // of the first, whatever the next one's size
   Progress progress("frames", motion.frames);
-  for (int frame = 0; frame < motion.frames; ++frame) {
+  for (int frame = 0; frame < motion.frames && !isInterrupted(); ++frame) {
     progress.step("");
     const Moment moment = momentAt(scene, result.view.lights, motion, frame);
-    FogView view = lookIntoFog(*moment.scene, passes, moment.lights, options.medium);
+    if (motion.densityAt) medium.density = motion.densityAt(frame);
+    FogView view = lookIntoFog(*moment.scene, passes, moment.lights, medium);
     std::vector<ImageF> images;
     for (FogMethodResult& method : runFogMethods(*moment.scene, passes, view, how))
       images.push_back(std::move(method.inScattered));
-    if (options.truth)
-      images.push_back(referenceFor(*moment.scene, view, options.reference, options.cache).reference.inScattered);
-    for (size_t i = 0; i < images.size() && !options.outDir.empty(); ++i)
-      writePng(options.outDir / "frames" / stems[i] / fmt::format("{:04}.png", frame),
-               exposed(composed(view, images[i]), result.exposure));
+    try {
+      if (options.truth)
+        images.push_back(referenceFor(*moment.scene, view, options.reference, options.cache).reference.inScattered);
+    } catch (const Interrupted&) {  // out of a frame that is not whole
+      break;
+    }
+    for (size_t i = 0; i < images.size() && !options.outDir.empty(); ++i) {
+      const std::string path = fmt::format("frames/{}/{:04}.png", stems[i], frame);
+      writePng(options.outDir / path, exposed(composed(view, images[i]), result.exposure));
+      const bool isOnPage = i == 0 || (options.truth && i + 1 == images.size());  // the first method, and the reference
+      if (isOnPage && isShown(frame, motion.frames))
+        result.framePictures.emplace_back(fmt::format("frame {} of {}", frame, stems[i]), path);
+    }
+    ++result.framesDone;
     if (options.truth) {
       meanSum += meanValue(images.back());
       for (size_t i = 0; i < beyond.size() && frame > 0; ++i)
@@ -148,10 +214,11 @@ void runMotion(const SceneView& scene, ShadowPasses& passes, const FogOptions& o
     }
     before = std::move(images);
   }
-  const double mean = meanSum / motion.frames;
-  for (size_t i = 0; i < beyond.size() && mean > 0.0; ++i)
-    result.rows[i].flicker = beyond[i] / (motion.frames - 1) / mean;
-  if (!options.outDir.empty()) result.motionNote = writeVideos(options.outDir / "frames", stems);
+  const double mean = meanSum / std::max(result.framesDone, 1);
+  for (size_t i = 0; i < beyond.size() && mean > 0.0 && result.framesDone > 1; ++i)
+    result.rows[i].flicker = beyond[i] / (result.framesDone - 1) / mean;
+  if (!options.outDir.empty() && result.framesDone > 0)
+    result.motionNote = writeVideos(options.outDir / "frames", stems);
 }
 
 }  // namespace gnomon

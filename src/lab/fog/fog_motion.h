@@ -5,14 +5,18 @@
 
 namespace gnomon {
 
-// "light:x,y,z" or "camera:x,y,z", metres. Throws UsageError.
+// "light:x,y,z" or "camera:x,y,z", metres; "orbit:AXIS,DEGREES", the lights about x, y, z or a vector x,y,z. Throws
+// UsageError.
 FogMotion parseMotion(const std::string& text, int frames);
 
-// Runs the methods of `result.rows` on every frame; sets their flicker where there is a reference, writes
-// frames below the options' folder, and says in `result.motionNote` what became of the video.
+// Runs the methods of `result.rows` on every frame; sets their flicker where there is a reference, writes frames below
+// the options' folder, and says in `result.motionNote` what became of the video. Interrupted, it ends after the last
+// frame that is whole.
 void runMotion(const SceneView& scene, ShadowPasses& passes, const FogOptions& options, FogResult& result);
 
-// Whether the path has been taken: the camera's or the light's place at a frame.
+// The camera's or a light's place at a frame, along a line.
 glm::vec3 placeAt(const FogMotion& motion, const glm::vec3& startW, int frame);
+// A light at a frame; an orbit's centre is the scene's.
+Light lightAtFrame(const FogMotion& motion, const Light& start, const glm::vec3& centerW, int frame);
 
 }  // namespace gnomon

@@ -40,7 +40,8 @@ void writeFogExr(const std::filesystem::path& path, const FogView& view, const I
     std::copy_n(&radiance.values[3 * i], 3, &all.values[6 * i]);
     std::copy_n(&inScattered.values[3 * i], 3, &all.values[6 * i + 3]);
   }
-  writeExr(path, all, {"R", "G", "B", "medium.R", "medium.G", "medium.B"});
+  writeExr(path, all,
+           {.names = {"R", "G", "B", "medium.R", "medium.G", "medium.B"}, .units = "cd/m^2", .isColour = true});
 }
 
 Image8 mediaDifferencePicture(const ImageF& measured, const ImageF& reference, const FogExposure& exposure) {

@@ -62,6 +62,7 @@ void appendScene(std::string& bytes, const Scene& scene) {
   for (const Instance& instance : scene.instances) {
     append(bytes, instance.mesh);
     append(bytes, instance.worldFromMesh);
+    append(bytes, instance.casts);
   }
 }
 

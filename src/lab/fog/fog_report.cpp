@@ -90,6 +90,21 @@ MediumFacts mediumFacts(const FogView& view) {
   return facts;
 }
 
+FramesFacts framesFacts(const FogMotion& motion, const FogResult& result) {
+  std::string moves = !motion.moves() ? "" : motion.camera ? "camera" : "light";
+  if (motion.densityAt) moves += moves.empty() ? "density" : " and density";
+  FramesFacts facts{.count = result.framesDone,
+                    .moves = moves,
+                    .offset = motion.offsetW,
+                    .note = result.motionNote,
+                    .pictures = result.framePictures};
+  if (motion.degrees != 0.0) {
+    facts.axis = motion.axisW;
+    facts.degrees = motion.degrees;
+  }
+  return facts;
+}
+
 ReferenceFacts referenceFacts(const FogResult& result) {
   const MediaReference& reference = *result.reference;
   return {.mean = reference.mean,
@@ -122,6 +137,8 @@ std::string fogTable(const Session& session, const FogOptions&, const FogResult&
         view.density->boundsW().lower.x, view.density->boundsW().lower.y, view.density->boundsW().lower.z,
         view.density->boundsW().upper.x, view.density->boundsW().upper.y, view.density->boundsW().upper.z);
   if (result.reference) text += fmt::format("reference: {}\n", referenceText(result));
+  text += fmt::format("pictures are exposed by {:.6g} per cd/m^2 (--exposure keeps it for others)\n",
+                      result.exposure.factor);
   const DeclaredColumns<MediaRow> columns(result.rows);
   text += fmt::format("{:<13}{:<22}{}\n", "integrator", "map", columns.head());
   for (const MediaRow& row : result.rows)
@@ -137,17 +154,14 @@ std::string fogJson(const Session& session, const FogOptions& options, const Fog
   MediaResults file;
   static_cast<ResultsHead&>(file) = resultsHead(session, command, result.gbufferMs);
   file.files = result.files;
+  file.isComplete = result.isComplete;
   for (size_t i = 0; i < result.view.lights.size(); ++i)
     file.lights.push_back(lightFacts(result.view.lights[i], result.view.sources[i]));
   file.medium = mediumFacts(result.view);
   file.exposure = static_cast<double>(result.exposure.factor);
   if (result.reference) file.reference = referenceFacts(result);
   file.worst = result.worst;
-  if (options.motion)
-    file.frames = {.count = options.motion->frames,
-                   .moves = options.motion->camera ? "camera" : "light",
-                   .offset = options.motion->offsetW,
-                   .note = result.motionNote};
+  if (options.motion) file.frames = framesFacts(*options.motion, result);
   file.rows = result.rows;
   file.equalTerms = result.equalTerms;
   return resultsText(file);

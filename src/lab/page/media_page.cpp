@@ -249,15 +249,21 @@ void setEdges(TemplateData& page, const MediaResults& media, ReportPictureShelf&
     page.set("edgePlace", fmt::format("the square of {} pixels at {}, {}", worst->size, worst->x, worst->y));
 }
 
-void setFrames(TemplateData& page, const std::optional<FramesFacts>& frames) {
+void setFrames(TemplateData& page, const std::optional<FramesFacts>& frames, ReportPictureShelf& shelf) {
+  page.set("framePictures", frames ? pictureViews(frames->pictures, shelf) : viewList());
+  page.set("hasFramePictures", frames && !frames->pictures.empty());
   if (!frames) {
     page.set("frames", false);
     return;
   }
   TemplateData view;
   view.set("count", grouped(static_cast<uint64_t>(frames->count)));
-  view.set("moves", frames->moves);
-  view.set("offset", vectorText(frames->offset));
+  const std::string path = frames->degrees ? fmt::format("goes {:.4g}° round the axis {}", *frames->degrees,
+                                                         vectorText(frames->axis.value_or(glm::vec3(0.0f))))
+                           : frames->offset != glm::vec3(0.0f)
+                               ? fmt::format("moves by {} m", vectorText(frames->offset))
+                               : "changes";
+  view.set("path", fmt::format("the {} {}", frames->moves, path));
   view.set("note", frames->note);
   page.set("frames", view);
 }
@@ -281,7 +287,7 @@ std::string mediaHtml(const std::filesystem::path& folder, const MediaResults& m
   page.set("hasTerms", terms.is_non_empty_list());
   page.set("plots", plotViews(media));
   setEdges(page, media, shelf);
-  setFrames(page, media.frames);
+  setFrames(page, media.frames, shelf);
   setMissing(page, shelf);
   kainjow::mustache::mustache pageTemplate{std::string(kMediaHtml)};
   GNOMON_CHECK(pageTemplate.is_valid());

@@ -79,6 +79,10 @@ void setHead(TemplateData& page, const Comparison& data) {
   for (const TruthSummary& truth : data.truths) worst = std::max(worst, unsure(truth));
   page.set("instrumentError", percent(worst));
   page.set("truths", truthViews(data));
+  TemplateData notes = viewList();
+  for (const std::string& note : data.notes) notes.push_back(TemplateData(note));
+  page.set("notes", notes);
+  page.set("timeNoise", errorText(data.timeNoise));
   page.set("hasRows", !data.rows.empty());
   page.set("hasFilters", std::ranges::any_of(data.rows, [](const Row& row) { return row.filter != "none"; }));
 }
@@ -192,10 +196,14 @@ TemplateData markView(const Comparison& data, size_t index, const PlotItem& item
 TemplateData plotView(const Comparison& data, const char* size, double width, double height) {
   std::vector<PlotItem> items;
   const Ranking ranking = rankingOf(data.rows);
-  for (const Row& row : data.rows)
-    items.push_back({methodName(data, row), row.buildMs + row.shadeMs, rankingError(ranking, row)});
+  std::vector<size_t> rows;  // of several lights their sums
+  for (size_t i = 0; i < data.rows.size(); ++i)
+    if (data.rows[i].isSum == hasSeveralLights(data)) rows.push_back(i);
+  for (const size_t i : rows)
+    items.push_back({methodName(data, data.rows[i]), data.rows[i].buildMs + data.rows[i].shadeMs,
+                     rankingError(ranking, data.rows[i])});
   const Plot plot = layOutPlot(items, width, height, CostAxis::Linear,
-                               ranking == Ranking::Rmse ? ErrorText::Number : ErrorText::Percent);
+                               ranking == Ranking::Rmse ? ErrorText::Number : ErrorText::Percent, data.timeNoise);
   const std::vector<std::string> shapes = shapeNames(data);
   TemplateData view;
   view.set("errorName", errorName(ranking));
@@ -208,7 +216,7 @@ TemplateData plotView(const Comparison& data, const char* size, double width, do
   for (const bool onFront : {false, true})  // the front is drawn over the rest
     for (size_t i = 0; i < items.size(); ++i)
       if (plot.marks[i].onFront == onFront)
-        marks.push_back(markView(data, i, items[i], plot.marks[i], shapeOf(shapes, data.rows[i])));
+        marks.push_back(markView(data, rows[i], items[i], plot.marks[i], shapeOf(shapes, data.rows[rows[i]])));
   view.set("marks", marks);
   return view;
 }
@@ -243,6 +251,39 @@ std::string crownOf(const BestRows& best, const Row& row) {
   return best.tuned == &row ? "best tuned" : "";
 }
 
+bool isOneOf(const Row& row, const Row& sum) {
+  return !row.isSum && row.map == sum.map && row.bias == sum.bias && row.filter == sum.filter &&
+         row.isTuned() == sum.isTuned();
+}
+
+// The sums over lights in their order, each with the rows that it sums below it; and those of no sum (of a run that was
+// interrupted) last.
+std::vector<Row> groupedByMethod(const std::vector<Row>& rows) {
+  std::vector<Row> all;
+  for (const Row& sum : rows) {
+    if (!sum.isSum) continue;
+    all.push_back(sum);
+    std::ranges::copy_if(rows, std::back_inserter(all), [&](const Row& row) { return isOneOf(row, sum); });
+  }
+  for (const Row& row : rows)
+    if (!row.isSum && std::ranges::none_of(rows, [&](const Row& sum) { return sum.isSum && isOneOf(row, sum); }))
+      all.push_back(row);
+  return all;
+}
+
+// "1", "2" and so on; of rows of single lights "1.1", "1.2" under their sum's number.
+std::vector<std::string> rankNames(const Comparison& data) {
+  std::vector<std::string> names;
+  size_t rank = 0, light = 0;
+  for (const Row& row : data.rows) {
+    const bool isPart = hasSeveralLights(data) && !row.isSum && rank > 0;
+    if (!isPart) ++rank;
+    light = isPart ? light + 1 : 0;
+    names.push_back(isPart ? fmt::format("{}.{}", rank, light) : fmt::format("{}", rank));
+  }
+  return names;
+}
+
 void setRows(TemplateData& page, const Comparison& data, ReportPictureShelf& shelf) {
   const double scale = barScale(data.rows);
   const PageColumns<Row> columns(data.rows);
@@ -250,12 +291,17 @@ void setRows(TemplateData& page, const Comparison& data, ReportPictureShelf& she
   page.set("columns", columns.heads());
   page.set("byRmse", rankingOf(data.rows) == Ranking::Rmse);
   TemplateData rows = viewList();
+  const std::vector<std::string> names = rankNames(data);
   bool cut = false;
   for (size_t i = 0; i < data.rows.size(); ++i) {
     const Row& row = data.rows[i];
     const ExactPictures exact = exactPictures(data, row, shelf);
-    const RowContext context{
-        .data = data, .columns = columns, .barScale = scale, .crown = crownOf(best, row), .exact = exact};
+    const RowContext context{.data = data,
+                             .columns = columns,
+                             .rank = names[i],
+                             .barScale = scale,
+                             .crown = crownOf(best, row),
+                             .exact = exact};
     rows.push_back(rowView(row, i + 1, context, shelf));
     cut = cut || isCut(row, scale);
   }
@@ -268,7 +314,10 @@ void setRows(TemplateData& page, const Comparison& data, ReportPictureShelf& she
 // Best first. A light that is alone needs no name.
 Comparison forPage(Comparison data) {
   data.rows = ranked(std::move(data.rows));
-  if (hasSeveralLights(data)) return data;
+  if (hasSeveralLights(data)) {
+    data.rows = groupedByMethod(data.rows);
+    return data;
+  }
   for (Row& row : data.rows) row.light.clear();
   for (MapSummary& map : data.maps) map.light.clear();
   return data;

@@ -76,16 +76,20 @@ void fitCostAxis(const std::vector<PlotItem>& items, Plot& plot) {
   plot.costTo = most + 2.0 * margin;
 }
 
-// Items that no other one beats: cheaper and at least as good, or better and at least as cheap.
-std::vector<size_t> findFront(const std::vector<PlotItem>& items) {
-  std::vector<size_t> order(items.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::ranges::stable_sort(order, [&](size_t a, size_t b) {
-    return std::pair(items[a].costMs, items[a].error) < std::pair(items[b].costMs, items[b].error);
-  });
+// Whether `a` is better and no dearer than `b`, or cheaper and no worse; costs within the noise are equal.
+bool beats(const PlotItem& a, const PlotItem& b, double noise) {
+  const bool cheaper = a.costMs < (1.0 - noise) * b.costMs;
+  const bool noDearer = (1.0 - noise) * a.costMs <= b.costMs;
+  return (a.error < b.error && noDearer) || (a.error <= b.error && cheaper);
+}
+
+// Items that no other one beats, the cheapest first.
+std::vector<size_t> findFront(const std::vector<PlotItem>& items, double noise) {
   std::vector<size_t> front;
-  for (const size_t i : order)
-    if (front.empty() || items[i].error < items[front.back()].error) front.push_back(i);
+  for (size_t i = 0; i < items.size(); ++i)
+    if (std::ranges::none_of(items, [&](const PlotItem& other) { return beats(other, items[i], noise); }))
+      front.push_back(i);
+  std::ranges::stable_sort(front, {}, [&](size_t i) { return std::pair(items[i].costMs, -items[i].error); });
   return front;
 }
 
@@ -166,8 +170,8 @@ double Plot::yOfError(double error) const {
   return errorBottom + (std::log10(error) - lowestDecade) / (highestDecade - lowestDecade) * (top - errorBottom);
 }
 
-Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height, CostAxis costAxis,
-                ErrorText errorText) {
+Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height, CostAxis costAxis, ErrorText errorText,
+                double costNoise) {
   Plot plot{.width = width,
             .height = height,
             .left = 62.0,
@@ -185,7 +189,7 @@ Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height,
   plot.errorTicks = errorTicks(plot, errorText);
   for (const PlotItem& item : items)
     plot.marks.push_back({.x = plot.xOfCost(item.costMs), .y = plot.yOfError(item.error)});
-  const std::vector<size_t> front = findFront(items);
+  const std::vector<size_t> front = findFront(items, costNoise);
   for (const size_t i : front) {
     PlotMark& mark = plot.marks[i];
     mark.onFront = true;

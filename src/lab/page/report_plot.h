@@ -22,7 +22,7 @@ struct PlotItem {
 
 struct PlotMark {
   double x = 0.0, y = 0.0;
-  bool onFront = false;   // no item is both cheaper and better
+  bool onFront = false;   // no item is both cheaper and better, beyond noise
   bool labelled = false;  // its label has room; else it shows on focus and hover only
   double labelX = 0.0, labelY = 0.0;
   const char* anchor = "start";  // of the label, as in SVG
@@ -52,9 +52,10 @@ struct Plot {
   CostAxis costAxis = CostAxis::Linear;
 };
 
-// On a logarithmic axis every cost is more than 0.
+// On a logarithmic axis every cost is more than 0. Costs that differ by less than `costNoise` of the larger one are not
+// told apart: of two such items the better one is on the front, and of equal ones both.
 Plot layOutPlot(const std::vector<PlotItem>& items, double width, double height, CostAxis costAxis = CostAxis::Linear,
-                ErrorText errorText = ErrorText::Percent);
+                ErrorText errorText = ErrorText::Percent, double costNoise = 0.0);
 
 // Round steps of 1, 2 or 5 times a power of ten: about `count` numbers within [from, to].
 std::vector<double> roundSteps(double from, double to, int count);

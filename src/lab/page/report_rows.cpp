@@ -141,6 +141,7 @@ TemplateData tuningView(const Row& row, const Tuning& tuning) {
   view.set("knob", tuning.knob);
   view.set("value", withUnit(shortNumber(shortest(tuning.value)), tuning.unit));
   view.set("evaluations", grouped(static_cast<uint64_t>(tuning.evaluations)));
+  view.set("atEnd", tuning.atEnd.empty() ? TemplateData(false) : TemplateData(tuning.atEnd));
   TemplateData list = viewList();
   if (const auto& there = tuning.otherCamera)
     list.push_back(transferView(fmt::format("camera {}", there->camera), *there, tuning.unit));
@@ -171,11 +172,11 @@ TemplateData placesView(const Row& row) {
 
 }  // namespace
 
-TemplateData rowView(const Row& row, size_t rank, const RowContext& context, ReportPictureShelf& shelf) {
+TemplateData rowView(const Row& row, size_t number, const RowContext& context, ReportPictureShelf& shelf) {
   TemplateData view;
-  view.set("id", rowId(rank));
-  view.set("rank", std::to_string(rank));
-  view.set("open", rank == 1);
+  view.set("id", rowId(number));
+  view.set("rank", context.rank);
+  view.set("open", number == 1);
   view.set("name", rowName(context.data, row));
   view.set("bias", row.bias);
   view.set("map", mapText(row.map, row.light));

@@ -13,12 +13,13 @@ struct ExactPictures {
 struct RowContext {
   const Comparison& data;
   const PageColumns<Row>& columns;
+  std::string rank;       // as it is shown
   double barScale = 1.0;  // fraction of scored pixels that fills a bar
   std::string crown;      // "best tuned" and the like
   const ExactPictures& exact;
 };
-// The `rank`th row (from 1).
-TemplateData rowView(const Row& row, size_t rank, const RowContext& context, ReportPictureShelf& shelf);
+// The `number`th row (from 1).
+TemplateData rowView(const Row& row, size_t number, const RowContext& context, ReportPictureShelf& shelf);
 
 // What tells this row from the others of the comparison: bias and filter, and with them the map.
 std::string methodName(const Comparison& data, const Row& row);

@@ -47,6 +47,7 @@ std::string mapText(const std::string& map, const std::string& light) {
 
 std::string kindTitle(const std::string& kind) {
   const size_t space = kind.find(' ');
+  if (kind.starts_with("frame ")) return "Frame " + kind.substr(space + 1);
   if (space != std::string::npos) return kindTitle(kind.substr(0, space)) + ", " + kind.substr(space + 1);
   if (kind == "truth") return "Exact shadow";
   if (kind == "truth_beauty") return "Shaded with the exact shadow";
@@ -57,7 +58,7 @@ std::string kindTitle(const std::string& kind) {
 }
 
 bool isShaded(const std::string& kind) {
-  return kind == "medium" || kind.find("beauty") != std::string::npos;
+  return kind == "medium" || kind.starts_with("frame ") || kind.find("beauty") != std::string::npos;
 }
 
 std::string cellText(const FieldNotes& notes, const std::optional<double>& value) {

@@ -22,6 +22,7 @@ void setFacts(TemplateData& page, const ResultsHead& head) {
     return text.empty() ? TemplateData(false) : TemplateData(text);
   };
   page.set("version", head.program.version);
+  page.set("interrupted", !head.isComplete);
   page.set("sceneName", head.scene.name.empty() ? "Unnamed scene" : head.scene.name);
   page.set("triangles", grouped(head.scene.triangles));
   page.set("sceneScale", shortNumber(shortest(head.scene.sceneScale)));

@@ -16,6 +16,7 @@ struct TruthSummary {
   size_t scored = 0, lit = 0, facingAway = 0, outsideCone = 0;
   double margin = 0.0;
   size_t marginFlipsHalf = 0, marginFlipsDouble = 0;
+  std::optional<double> texel;
   std::optional<float> zNear, zFar;
   std::string fitNote;
   double receiversAndTraceMs = 0.0, fitMs = 0.0;
@@ -33,6 +34,9 @@ struct TruthSummary {
               {.unit = "pixels", .says = "that change when the margin is halved"}),
         field("margin_flips_double", &TruthSummary::marginFlipsDouble,
               {.unit = "pixels", .says = "that change when the margin is doubled"}),
+        field("texel", &TruthSummary::texel,
+              {.unit = "metres",
+               .says = "median width of the map's texels on the surfaces that are scored; null for a volume"}),
         field("z_near", &TruthSummary::zNear, {.unit = "metres", .says = "of the fitted map's first slice"}),
         field("z_far", &TruthSummary::zFar, {.unit = "metres", .says = "of the fitted map's first slice"}),
         field("fit_note", &TruthSummary::fitNote,
@@ -85,6 +89,8 @@ struct MapSummary {
 
 // `light` and `truth` are those of the first map.
 struct Comparison : ResultsHead {
+  std::vector<std::string> notes;
+  double timeNoise = 0.0;
   std::vector<TruthSummary> truths;
   std::vector<MapSummary> maps;
   std::vector<Row> rows;
@@ -98,6 +104,15 @@ struct Comparison : ResultsHead {
     return std::tuple_cat(
         ResultsHead::fields(),
         std::tuple(
+            field("notes", &Comparison::notes,
+                  {.says = "what a reader should know: lights that light nothing, a margin that is large for a texel, "
+                           "biases without "
+                           "the solids they need",
+                   .absent = Absent::Earlier}),
+            field("time_noise", &Comparison::timeNoise,
+                  {.says = "times that differ by less, as a share, are not told apart: twice the standard error of the "
+                           "rounds' median",
+                   .absent = Absent::Earlier}),
             field("light", &Comparison::firstLight, {.says = "of the first map; below"}),
             field("truth", &Comparison::firstTruth, {.says = "of the first map; below"}),
             field("truths", &Comparison::truths, {.says = "one per map and light; below"}),

@@ -62,6 +62,7 @@ struct ResultsHead {
   SceneFacts scene;
   CameraFacts camera;
   double gbufferMs = 0.0;
+  bool isComplete = true;
   FileSums files;
 
   static constexpr auto fields() {
@@ -71,6 +72,9 @@ struct ResultsHead {
                       field("camera", &ResultsHead::camera, {.says = "below"}),
                       field("gbuffer_ms", &ResultsHead::gbufferMs,
                             {.unit = "ms", .says = "drawing the G-buffer; median of `--repeats`, wall clock"}),
+                      field("complete", &ResultsHead::isComplete,
+                            {.says = "false: the run goes on or was interrupted; here is what was done by then",
+                             .absent = Absent::Earlier}),
                       field("files", &ResultsHead::files,
                             {.says = "with `-o`: each file of the run, and its CRC-32; a report refuses others",
                              .absent = Absent::Earlier}));

@@ -66,14 +66,26 @@ struct FramesFacts {
   int count = 0;
   std::string moves;
   glm::vec3 offset{0.0f};
+  std::optional<glm::vec3> axis;
+  std::optional<double> degrees;
   std::string note;
+  Pictures pictures;
 
   static constexpr auto fields() {
     return std::tuple(
         field("count", &FramesFacts::count, {.says = "number of frames"}),
-        field("moves", &FramesFacts::moves, {.says = "light or camera"}),
+        field("moves", &FramesFacts::moves, {.says = "light, camera or density, or two of them with `and` between"}),
         field("offset", &FramesFacts::offset, {.unit = "metres", .says = "from the first frame to the last"}),
-        field("note", &FramesFacts::note, {.says = "where the video is, or why there is none"}));
+        field("axis", &FramesFacts::axis,
+              {.says = "of the light's orbit about the scene's centre, a unit vector; else absent",
+               .absent = Absent::LeftOut}),
+        field(
+            "degrees", &FramesFacts::degrees,
+            {.unit = "degrees", .says = "of that orbit, from the first frame to the last", .absent = Absent::LeftOut}),
+        field("note", &FramesFacts::note, {.says = "where the video is, or why there is none"}),
+        field("pictures", &FramesFacts::pictures,
+              {.says = "with `-o`: paths of some frames of the first row and of the reference, by `frame N of METHOD`",
+               .absent = Absent::Earlier}));
   }
 };
 

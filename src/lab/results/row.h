@@ -47,7 +47,7 @@ struct MapSizeTransfer : Transfer {
 struct Tuning {
   std::string knob;
   float value = 0.0f;
-  std::string unit;
+  std::string unit, atEnd;
   int evaluations = 0;
   std::optional<CameraTransfer> otherCamera;
   std::optional<MapSizeTransfer> otherMapSize;
@@ -59,6 +59,11 @@ struct Tuning {
               {.says = "with the least acne and leak here; through a filter, with the least RMSE"}),
         field("unit", &Tuning::unit, {.says = "of `value`", .absent = Absent::Earlier}),
         field("evaluations", &Tuning::evaluations, {.says = "number of values tried"}),
+        field("at_end", &Tuning::atEnd,
+              {.says = "`lower` or `upper` where the value lies at that end of those that were tried, so that a better "
+                       "one may "
+                       "lie beyond; else empty",
+               .absent = Absent::Earlier}),
         field("other_camera", &Tuning::otherCamera, {.says = "how well the value works from a second camera; or null"}),
         field("other_map_size", &Tuning::otherMapSize,
               {.says = "how well it works on a map of half the size; or null"}));

@@ -1,0 +1,34 @@
+#include "cli/version.h"
+
+#include "lab/results/schema.h"
+
+#include "build_facts.h"
+#include "git_describe.h"
+
+#include <vulkan/vulkan_core.h>
+
+#include <fmt/format.h>
+
+namespace gnomon {
+
+namespace {
+
+std::string compilerText() {
+#if defined(__clang__)
+  return fmt::format("clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+#else
+  return fmt::format("g++ {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+#endif
+}
+
+}  // namespace
+
+std::string versionText() {
+  const std::string commit = kGitDescribe;
+  return fmt::format("gnomon {}{}\nbuilt by {}, {}\nVulkan headers {}.{}.{}\n{}", gnomonVersion(),
+                     commit.empty() ? "" : " (" + commit + ")", compilerText(), kBuildType,
+                     VK_API_VERSION_MAJOR(VK_HEADER_VERSION_COMPLETE), VK_API_VERSION_MINOR(VK_HEADER_VERSION_COMPLETE),
+                     VK_API_VERSION_PATCH(VK_HEADER_VERSION_COMPLETE), kLibraries);
+}
+
+}  // namespace gnomon
