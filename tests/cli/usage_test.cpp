@@ -306,7 +306,9 @@ TEST_F(UsageTest, AValueTunedToTheEndOfItsRangeIsMarked) {
   EXPECT_TRUE(has(result.out, "m (the upper end of what was tried) after")) << result.out;
   const json rows = json::parse(readFile(folder_ / "out" / "results.json")).at("rows");
   for (const json& row : rows)
-    if (row.at("tuned")) EXPECT_EQ(row.at("tuning").at("at_end"), row.at("bias") == "cosine" ? "upper" : "") << row;
+    if (row.at("tuned").get<bool>()) {
+      EXPECT_EQ(row.at("tuning").at("at_end"), row.at("bias") == "cosine" ? "upper" : "") << row;
+    }
   EXPECT_TRUE(has(readFile(folder_ / "out" / "report.html"), "It is the upper end of those values"));
 }
 
@@ -336,15 +338,16 @@ TEST_F(UsageTest, BenchIsAsSmallAsItIsAskedToBe) {
   ASSERT_EQ(result.exitCode, 0) << result.err;
   for (const json& growth : json::parse(readFile(folder_ / "b.json")).at("growth")) {
     const double most = growth.at("points").back().at("size").get<double>();
-    if (growth.at("size") == "map texels") EXPECT_EQ(most, 6 * 32 * 32);
-    if (growth.at("size") == "pixels") EXPECT_EQ(most, 64 * 64);
+    const std::string size = growth.at("size");
+    EXPECT_TRUE(size != "map texels" || most == 6 * 32 * 32) << most;
+    EXPECT_TRUE(size != "pixels" || most == 64 * 64) << most;
   }
   expectMistake("bench contact --map-size 16 --map-texels 4096", 2, "excludes");
 }
 
 TEST_F(UsageTest, DensitiesThatFollowOneAnotherAreFrames) {
-  for (const int number : {3, 4, 5})
-    ASSERT_EQ(run(fmt::format("scene --density puff --seed {0} -o @/puff.{0:03}.vdb", number)).exitCode, 0);
+  for (const auto& [number, density] : {std::pair{3, "puff"}, {4, "fog"}, {5, "puff"}})
+    ASSERT_EQ(run(fmt::format("scene --density {} -o @/puff.{:03}.vdb", density, number)).exitCode, 0);
   const std::string fog =
       "fog grate --density @/puff.###.vdb --integrators march --steps 8 --size 24 --map-size 32 "
       "--repeats 1 --quiet -o @/out ";
@@ -357,7 +360,8 @@ TEST_F(UsageTest, DensitiesThatFollowOneAnotherAreFrames) {
   for (const auto& entry : fs::directory_iterator(folder_ / "out" / "frames")) {
     if (!entry.is_directory()) continue;
     const std::string first = readFile(entry.path() / "0000.png");
-    EXPECT_NE(first, readFile(entry.path() / "0002.png"));
+    EXPECT_FALSE(first == readFile(entry.path() / "0001.png"));
+    EXPECT_TRUE(first == readFile(entry.path() / "0002.png"));
     last = entry.path().filename().string();
   }
   EXPECT_FALSE(last.empty());

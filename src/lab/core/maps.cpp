@@ -64,7 +64,8 @@ const Parameterization& usualMapFor(LightType type, const MapOptions& options) {
     });
   };
   const auto found = std::ranges::find_if(maps, hasAll);
-  return **(found == maps.end() ? maps.begin() : found);
+  const Parameterization* chosen = found == maps.end() ? maps.front() : *found;
+  return *chosen;
 }
 
 }  // namespace gnomon
