@@ -17,6 +17,7 @@ layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 
 layout(constant_id = 1) const int kDiagnose = 0;
 layout(constant_id = 9) const int kMaskedScene = 1;
+layout(constant_id = 10) const int kStage = kStageWhole;  // kStage*
 
 layout(push_constant, scalar) uniform Push {
   FilterParams filterParams;
@@ -26,6 +27,9 @@ layout(push_constant, scalar) uniform Push {
 layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagnosis diagnosis[]; };
+
+layout(scalar, binding = kBindWalkers) buffer Walkers { uint walkers[]; };
+layout(scalar, binding = kBindWalkDispatch) buffer Dispatch { WalkDispatch walkDispatch; };
 
 #include "shadow/surface_visibility.glsl"
 
@@ -47,9 +51,34 @@ float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosi
   return receiverVisibility(receiver, pixel, pixelDiagnosis);
 }
 
+// Appends a pixel to the list of the second dispatch. What begins a group of that adds the group.
+void listWalker(uint index) {
+  uint place = atomicAdd(walkDispatch.countPlusOne, 1u) - 1u;
+  walkers[place] = index;
+  uint group = place / uint(kShadeGroupSide * kShadeGroupSide);
+  bool begins = group * uint(kShadeGroupSide * kShadeGroupSide) == place;
+  if (begins && group > 0u && group < kMostWalkGroupsX) atomicAdd(walkDispatch.groupsX, 1u);
+  if (begins && group >= kMostWalkGroupsX && group % kMostWalkGroupsX == 0u) atomicAdd(walkDispatch.groupsY, 1u);
+}
+
+// Which pixel this invocation shades; false: none.
+bool ownPixel(out ivec2 pixel) {
+  int width = shade.camera.width;
+  if (kStage == kStageWalks) {
+    uint group = gl_WorkGroupID.y * kMostWalkGroupsX + gl_WorkGroupID.x;
+    uint place = group * uint(kShadeGroupSide * kShadeGroupSide) + gl_LocalInvocationIndex;
+    bool listed = place + 1u < walkDispatch.countPlusOne;
+    int index = listed ? int(walkers[place]) : 0;
+    pixel = ivec2(index % width, index / width);
+    return listed;
+  }
+  pixel = ivec2(gl_GlobalInvocationID.xy);
+  return pixel.x < width && pixel.y < shade.camera.height;
+}
+
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (pixel.x >= shade.camera.width || pixel.y >= shade.camera.height) return;
+  ivec2 pixel;
+  if (!ownPixel(pixel)) return;
   uint index = uint(pixel.y * shade.camera.width + pixel.x);
   PixelDiagnosis pixelDiagnosis;
   pixelDiagnosis.texel = 0u;
@@ -58,4 +87,5 @@ void main() {
   pixelDiagnosis.walkSteps = 0u;
   visibility[index] = shadePixel(pixel, fetchPrimitive(pixel), pixelDiagnosis);
   if (kDiagnose == 1) diagnosis[index] = pixelDiagnosis;
+  if (kStage == kStageLists && (pixelDiagnosis.flags & kPixelWalks) != 0u) listWalker(index);
 }

@@ -16,6 +16,9 @@ const int kBindRadiance = 15;    // vec3 a pixel
 const int kBindShade = 29;       // ShadeUniforms
 const int kBindVisibility = 30;  // float a pixel
 const int kBindDiagnosis = 31;   // PixelDiagnosis a pixel
+// Of the pixels that are left to a second dispatch of the visibility pass.
+const int kBindWalkers = 33;      // uint a pixel of the list: its number
+const int kBindWalkDispatch = 34; // WalkDispatch
 const int kShadeGroupSide = 8;   // pixels; the work group is square
 
 struct ShadeUniforms {
@@ -50,7 +53,22 @@ const uint kPixelCovered = 2u;    // the map covers it
 const uint kPixelLit = 4u;
 const uint kPixelGrazing = 8u;    // the texel's ray does not meet the receiver's plane between near and far
 const uint kPixelUnknown = 16u;   // no such bias method
+const uint kPixelWalks = 32u;     // left to kStageWalks
 const float kUnknownVisibility = -1.0f;  // painted magenta
+
+// The visibility pass of `witness`, unfiltered, goes in two dispatches: most pixels need no walk and are settled by the
+// first, which lists the others for the second. One pass for both has every group of pixels walk if one must, and
+// lavapipe runs even a loop that no pixel enters once.
+const int kStageWhole = 0;  // one dispatch for all
+const int kStageLists = 1;
+const int kStageWalks = 2;
+
+// Arguments of the second dispatch, and how many it has to do; each is 1 when the first begins.
+struct WalkDispatch {
+  uint groupsX, groupsY, groupsZ;
+  uint countPlusOne;
+};
+const uint kMostWalkGroupsX = 16384u;
 
 GNOMON_FN uint packTexel(int slice, ivec2 texel) {
   return uint(texel.x) | (uint(texel.y) << 14u) | (uint(slice) << 28u);

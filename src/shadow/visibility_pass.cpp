@@ -65,6 +65,10 @@ VisibilityPass::VisibilityPass(const gpu::Device& device, int width, int height)
           {.name = "shade uniforms", .size = sizeof(glsl::ShadeUniforms), .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
       visibility_(device, {.name = "visibility", .size = pixelBytes(width, height, sizeof(float))}),
       diagnosis_(device, {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}),
+      walkers_(device, {.name = "walkers", .size = pixelBytes(width, height, sizeof(uint32_t))}),
+      walkDispatch_(device, {.name = "walk dispatch",
+                             .size = sizeof(glsl::WalkDispatch),
+                             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT}),
       noIds_(device,
              {.name = "no ids", .format = VK_FORMAT_R32_UINT, .array = true, .usage = VK_IMAGE_USAGE_SAMPLED_BIT}),
       programs_(device) {}
@@ -85,7 +89,8 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
                                                                             {.id = 5, .value = key.channels},
                                                                             {.id = 6, .value = key.filter},
                                                                             {.id = 7, .value = key.tapCount},
-                                                                            {.id = 9, .value = key.masked}})}));
+                                                                            {.id = 9, .value = key.masked},
+                                                                            {.id = 10, .value = key.stage}})}));
   return variants_.back()->program;
 }
 
@@ -108,14 +113,25 @@ void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, 
       {glsl::kBindIdChunks, scene.idChunks},   {glsl::kBindTriangleFacts, scene.triangleFacts},
       {glsl::kBindMap, map.uniforms()},        {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
       {glsl::kBindShade, uniforms_},           {glsl::kBindVisibility, visibility_},
-      {glsl::kBindDiagnosis, diagnosis_}};
+      {glsl::kBindDiagnosis, diagnosis_},      {glsl::kBindWalkers, walkers_},
+      {glsl::kBindWalkDispatch, walkDispatch_}};
   for (const Channel& channel : channels()) {
     const bool lacksIds = channel.format == VK_FORMAT_R32_UINT && (map.channels() & channel.bit) == 0;
     bindings.emplace_back(channel.binding, lacksIds ? noIds_ : map.imageOrAny(channel.bit));
   }
-  commands.dispatch(program({method.id, diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0,
-                             method.channels, filter.id, filter.tapCount, scene.masked ? 1 : 0, method.user}),
-                    groupCount_, gpu::asPush(push), bindings);
+  const auto programOf = [&](int stage) -> const gpu::ComputeProgram& {
+    return program({method.id, diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0, method.channels,
+                    filter.id, filter.tapCount, scene.masked ? 1 : 0, stage, method.user});
+  };
+  if (method.id != glsl::kBiasWitness || filter.id != glsl::kShadowFilterNone) {
+    commands.dispatch(programOf(glsl::kStageWhole), groupCount_, gpu::asPush(push), bindings);
+    return;
+  }
+  commands.fill(walkDispatch_, 1);
+  commands.barrier("the list of walks is empty -> pixels are listed");
+  commands.dispatch(programOf(glsl::kStageLists), groupCount_, gpu::asPush(push), bindings);
+  commands.barrier("pixels are listed -> they walk");
+  commands.dispatchIndirect(programOf(glsl::kStageWalks), walkDispatch_, gpu::asPush(push), bindings);
 }
 
 RadiancePass::RadiancePass(const gpu::Device& device, int width, int height)

@@ -38,7 +38,7 @@ class VisibilityPass {
  private:
   // Specialization constants of shade_visibility.comp.glsl, in the order of their ids.
   struct VariantKey {
-    int32_t method, diagnose, mapKind, sliceCount, instanced, channels, filter, tapCount, masked;
+    int32_t method, diagnose, mapKind, sliceCount, instanced, channels, filter, tapCount, masked, stage;
     const UserBias* user;
     bool operator==(const VariantKey&) const = default;
   };
@@ -51,7 +51,8 @@ class VisibilityPass {
   const gpu::Device& device_;
   glm::uvec3 groupCount_;
   gpu::Buffer uniforms_, visibility_, diagnosis_;
-  gpu::Image noIds_;  // bound where a map has none
+  gpu::Buffer walkers_, walkDispatch_;  // pixels that a second dispatch shades (glsl::kStageLists)
+  gpu::Image noIds_;                    // bound where a map has none
   std::vector<std::unique_ptr<Variant>> variants_;
   gpu::ComputePrograms programs_;
 };
