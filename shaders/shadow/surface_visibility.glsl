@@ -1,6 +1,6 @@
 // Visibility by biases that know the scene's surfaces (shared/surface_bias.glsl): their tables, and a tap of `witness`.
-// The including shader declares `shade`, `endMargin`, `idShift`, kMethod, kDiagnose, kStage, kMapKind and
-// kMaskedScene.
+// The including shader declares `shade`, `endMargin`, `idShift`, kMethod, kDiagnose, kStage, kWitnessReach,
+// kMapKind and kMaskedScene.
 #ifndef GNOMON_SURFACE_VISIBILITY_GLSL
 #define GNOMON_SURFACE_VISIBILITY_GLSL
 
@@ -41,14 +41,14 @@ bool witnessTap(ShadowMap map, Receiver receiver, MapPoint point, vec2 at, out b
       if (!asked.covered) return false;
     }
   }
-  WitnessVerdict verdict;
+  WitnessVerdict verdict = litWithoutWalk(map, asked);
   if (kStage == kStageLists) {
-    if (asksForWalks(map, lookupTables(), shade.bias.witnessReach, receiver, target, asked))
-      pixelDiagnosis.flags |= kPixelWalks;
-    verdict = litWithoutWalk(map, asked);
+    WitnessQuestion question = witnessQuestion(map, target, asked);
+    TexelsToAsk ask = texelsToAsk(map, lookupTables(), question, receiver.id, kWitnessReach);
+    pixelDiagnosis.flags |= ask.beyond != 0u ? kPixelWalksAcross : ask.held != 0u ? kPixelWalks : 0u;
   } else {
-    verdict = witnessVerdict(map, lookupTables(), shade.bias.witnessReach, receiver, target,
-                             kFilter != kShadowFilterNone, asked);
+    WitnessAsking asking = WitnessAsking(kWitnessReach, kFilter != kShadowFilterNone, kStage != kStageWalks);
+    verdict = witnessVerdict(map, lookupTables(), asking, receiver, target, asked);
   }
   lit = verdict.lit;
   if (kDiagnose == 1) {

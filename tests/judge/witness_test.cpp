@@ -100,8 +100,9 @@ TEST_F(Witness, WalksOnTheGpuAsOnTheCpu) {
           const std::optional<glsl::Receiver> receiver = receiverOf(map.seen, map.lit, i);
           if (!receiver || (pixels[i].flags & glsl::kPixelCovered) == 0) continue;
           const glsl::ShadowMap& shape = map.lit.fitted().map;
-          const glsl::WitnessVerdict verdict = glsl::witnessVerdict(
-              shape, host.tables(), reach, *receiver, receiver->posL, false, glsl::mapProject(shape, receiver->posL));
+          const glsl::WitnessVerdict verdict =
+              glsl::witnessVerdict(shape, host.tables(), glsl::askingOf(reach), *receiver, receiver->posL,
+                                   glsl::mapProject(shape, receiver->posL));
           ++asked;
           steps += verdict.tally.steps & 4095u;
           otherVerdicts += verdict.lit != ((pixels[i].flags & glsl::kPixelLit) != 0) ? 1 : 0;

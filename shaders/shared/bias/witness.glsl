@@ -105,28 +105,58 @@ struct TexelsToAsk {
   uint beyond;  // across the slice's edge
 };
 
+// An id among those that are known already.
+struct KnownIds {
+  uint own, before1, before2, before3;  // the receiver's, and the last of others
+};
+
+GNOMON_FN bool isKnownId(KnownIds known, uint id) {
+  return id == kNoId || id == known.own || id == known.before1 || id == known.before2 || id == known.before3;
+}
+
+GNOMON_FN TexelsToAsk withTexel(TexelsToAsk ask, bool held, bool known, int i) {
+  TexelsToAsk more = ask;
+  more.held |= held && !known ? 1u << uint(i) : 0u;
+  more.beyond |= held ? 0u : 1u << uint(i);
+  return more;
+}
+
+GNOMON_FN KnownIds withId(KnownIds known, uint id) {
+  KnownIds more = known;
+  more.before3 = known.before2;
+  more.before2 = known.before1;
+  more.before1 = id;
+  return more;
+}
+
 // Most receivers have none, and nothing more to do.
 GNOMON_FN TexelsToAsk texelsToAsk(ShadowMap map, LookupTables tables, WitnessQuestion question, uint ownId, int reach) {
   TexelsToAsk ask;
   ask.held = 0u;
   ask.beyond = 0u;
-  uint before1 = ownId;
-  uint before2 = ownId;
-  uint before3 = ownId;
-  int count = reach == 4 ? 20 : 4;
-  for (int i = 0; i < count; ++i) {
+  KnownIds known;
+  known.own = ownId;
+  known.before1 = ownId;
+  known.before2 = ownId;
+  known.before3 = ownId;
+  uvec4 ids = mapIdsAround(tables, question.slice, question.first);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 offset = witnessOffset(i, question.nearest);
+    uint above = offset.x == 1 ? ids.y : ids.x;
+    uint below = offset.x == 1 ? ids.w : ids.z;
+    uint id = offset.y == 1 ? below : above;
+    bool held = mapHoldsTexel(map, question.slice, wantedTexel(question, i));
+    if (isWanted(question, i)) ask = withTexel(ask, held, isKnownId(known, id), i);
+    if (held) known = withId(known, id);
+  }
+  if (reach != 4) return ask;
+  for (int i = 4; i < 20; ++i) {
     if (!isWanted(question, i)) continue;
     ivec2 texel = wantedTexel(question, i);
-    if (!mapHoldsTexel(map, question.slice, texel)) {
-      ask.beyond |= 1u << uint(i);
-      continue;
-    }
-    uint id = mapIdAt(tables, question.slice, texel);
-    if (id == kNoId || id == ownId || id == before1 || id == before2 || id == before3) continue;
-    ask.held |= 1u << uint(i);
-    before3 = before2;
-    before2 = before1;
-    before1 = id;
+    bool held = mapHoldsTexel(map, question.slice, texel);
+    uint id = held ? mapIdAt(tables, question.slice, texel) : kNoId;
+    ask = withTexel(ask, held, isKnownId(known, id), i);
+    if (held) known = withId(known, id);
   }
   return ask;
 }
@@ -171,19 +201,29 @@ GNOMON_FN WitnessVerdict litWithoutWalk(ShadowMap map, MapPoint point) {
   return verdict;
 }
 
-// Whether a receiver has to walk at all; where not, litWithoutWalk() is its verdict.
-GNOMON_FN bool asksForWalks(ShadowMap map, LookupTables tables, int reach, Receiver receiver, vec3 target,
-                            MapPoint point) {
-  TexelsToAsk ask = texelsToAsk(map, tables, witnessQuestion(map, target, point), receiver.id, reach);
-  return (ask.held | ask.beyond) != 0u;
+// How `witness` is asked.
+struct WitnessAsking {
+  int reach;         // texels a side
+  bool isTap;        // not for the receiver's own point
+  bool crossesEdge;  // false: no texel beyond the slice's edge is wanted, which need not be looked for
+};
+
+GNOMON_FN WitnessAsking askingOf(int reach) {
+  WitnessAsking asking;
+  asking.reach = reach;
+  asking.isTap = false;
+  asking.crossesEdge = true;
+  return asking;
 }
 
-// `point`: where `target` falls on the map, which covers it. `isTap`: that is not the receiver's own point.
-GNOMON_FN WitnessVerdict witnessVerdict(ShadowMap map, LookupTables tables, int reach, Receiver receiver, vec3 target,
-                                        bool isTap, MapPoint point) {
+// `point`: where `target` falls on the map, which covers it. Of what texelsToAsk() has nothing for, the verdict is
+// litWithoutWalk().
+GNOMON_FN WitnessVerdict witnessVerdict(ShadowMap map, LookupTables tables, WitnessAsking asking, Receiver receiver,
+                                        vec3 target, MapPoint point) {
   WitnessQuestion question = witnessQuestion(map, target, point);
   PlacedTriangle own = placedTriangle(tables, receiver.id);
-  TexelsToAsk ask = texelsToAsk(map, tables, question, receiver.id, reach);
+  TexelsToAsk ask = texelsToAsk(map, tables, question, receiver.id, asking.reach);
+  if (!asking.crossesEdge) ask.beyond = 0u;
   WitnessVerdict verdict = litWithoutWalk(map, point);
   WitnessSearch search;
   search.pending = ask.held;
@@ -197,7 +237,7 @@ GNOMON_FN WitnessVerdict witnessVerdict(ShadowMap map, LookupTables tables, int 
     // One texel beyond the edge goes with the others: on lavapipe, which runs what one pixel of eight needs for all, to
     // look up each by itself would cost all pixels three look-ups.
     bool isFree = question.crossing < 0 || (search.pending & (1u << uint(question.crossing))) == 0u;
-    if (isFree && ask.beyond != 0u) {
+    if (asking.crossesEdge && isFree && ask.beyond != 0u) {
       question.crossing = findLSB(ask.beyond);
       ask.beyond &= ask.beyond - 1u;
       question.crossed = mapTexelAcross(map, question.slice, wantedTexel(question, question.crossing), target);
@@ -219,7 +259,7 @@ GNOMON_FN WitnessVerdict witnessVerdict(ShadowMap map, LookupTables tables, int 
       search.tally = tallied(search.tally, search.walk);
     }
     if (claims && search.walk.end == kWalkWitness) search.tally = tallied(search.tally, search.walk);
-    shadowed = claims && !(isTap && belongsToReceiver(tables, receiver, own, search.walk));
+    shadowed = claims && !(asking.isTap && belongsToReceiver(tables, receiver, own, search.walk));
     if (!shadowed) search.walk.end = kWalkBehind;
   }
   MapTexel decided = askedTexel(map, question, search.texel);
