@@ -227,7 +227,10 @@ ImageF LightOnMap::picture(const Method& method, const ChosenFilter& filter) {
   const bool inOnePass =
       drawn.recordFrame(commands, view_.buffers(), passes_.frame, {.bias = *method.bias, .filter = filter},
                         exposedUniforms(exposure(), method.params));
-  if (!inOnePass) return radiance(visibility(method, filter));
+  if (!inOnePass) {
+    timeLookup(method, {.bias = *method.bias, .filter = filter, .once = true});
+    return radiance(gpu::downloadAs<float>(view_.device(), passes_.visibility.visibility()));
+  }
   commands.submitAndWait();
   const auto colors = gpu::downloadAs<glm::vec4>(view_.device(), passes_.frame.radiance());
   ImageF image(view_.view().width, view_.view().height, 3);

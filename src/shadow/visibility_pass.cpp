@@ -97,7 +97,10 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
 }
 
 void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                            const MapImage& map, const BiasMethod& method, bool diagnose, const ChosenFilter& filter) {
+                            const MapImage& map, const ShadowLookup& lookup) {
+  const BiasMethod& method = lookup.bias;
+  const ChosenFilter& filter = lookup.filter;
+  const bool diagnose = lookup.diagnose;
   GNOMON_CHECK(!diagnose || filter.id == glsl::kShadowFilterNone);
   GNOMON_CHECK_EQ(method.channels & ~map.channels(), 0);
   if (method.knowsSurfaces() &&
@@ -133,7 +136,7 @@ void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, 
     return program({method.id, diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0, method.channels,
                     filter.id, filter.tapCount, scene.masked ? 1 : 0, stage, reach, method.user});
   };
-  if (method.id != glsl::kBiasWitness || filter.id != glsl::kShadowFilterNone) {
+  if (lookup.once || method.id != glsl::kBiasWitness || filter.id != glsl::kShadowFilterNone) {
     commands.dispatch(programOf(glsl::kStageWhole), groupCount_, gpu::asPush(push), bindings);
     return;
   }

@@ -23,7 +23,7 @@ class VisibilityPass {
   // Compiles its pipeline on first use; throws WorldError that names a user's file and line where that does
   // not compile. A diagnosis is of the unfiltered map: with a filter there is none.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const MapImage& map,
-              const BiasMethod& method, bool diagnose, const ChosenFilter& filter = glsl::kShadowFilterNone);
+              const ShadowLookup& lookup);
 
   // Before record(), whose pipeline is made for some of them.
   void setUniforms(const glsl::ShadeUniforms& uniforms);
