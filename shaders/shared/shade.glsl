@@ -70,7 +70,7 @@ struct WalkDispatch {
   uint groupsX, groupsY, groupsZ;
   uint countPlusOne;
 };
-const uint kMostWalkGroupsX = 16384u;
+const uint kMostWalkGroupsX = 64u;  // a dispatch may have 65,535 groups a side: pictures of 16,384 x 16,384
 
 GNOMON_FN uint packTexel(int slice, ivec2 texel) {
   return uint(texel.x) | (uint(texel.y) << 14u) | (uint(slice) << 28u);

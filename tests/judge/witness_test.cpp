@@ -134,6 +134,16 @@ TEST_F(Witness, WalksOnTheGpuAsOnTheCpu) {
   }
 }
 
+// The list of pixels that walk is cut in rows of groups of 64.
+TEST_F(Witness, AListLongerThanARowOfGroupsIsWalkedToItsEnd) {
+  LitMap map(device(), "factory", cubeParameterization(), 384, {.side = 64});
+  const Method method = atDefaults(findBias("witness"), map.seen);
+  size_t walked = 0;
+  for (const glsl::PixelDiagnosis& pixel : map.lit.diagnose(method)) walked += pixel.walkEnds != 0 ? 1 : 0;
+  EXPECT_GT(walked, 2 * 64 * glsl::kMostWalkGroupsX);
+  EXPECT_EQ(map.lit.visibility(method), visibilityAtOnce(map, method));
+}
+
 // A filter asks for points of the receiver's plane: what it gives is nearer to the exact shadow through the same kernel
 // than any bias that compares depths.
 TEST_F(Witness, IsTheBestThroughFilters) {
