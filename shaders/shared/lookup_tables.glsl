@@ -1,11 +1,10 @@
 // What a bias of surfaces (shared/surface_bias.glsl) looks up beside its tap: other texels of the map, and the scene's
 // triangles with their neighbours.
 //
-// A few functions read them: mapIdsAround() four texels at once, the first and those after it in x, in y and in both, in
-// half the time that four texelFetch take on lavapipe; beyond an edge it repeats what the edge holds.
-// In C++ they read the arrays of HostTables. A shader that has the tables defines
+// A few functions read them. In C++ they read the arrays of HostTables. A shader that has the tables defines
 // GNOMON_LOOKUP_TABLES and the functions (shadow/fetch_lookup_tables.glsl); in one that does not they find nothing, and
-// every such bias says lit.
+// every such bias says lit. mapIdsAround() has four texels at once, the first and those after it in x, in y and in
+// both, in half the time that four texelFetch take on lavapipe; beyond an edge it repeats what the edge holds.
 #ifndef GNOMON_LOOKUP_TABLES_GLSL
 #define GNOMON_LOOKUP_TABLES_GLSL
 

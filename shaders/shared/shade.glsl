@@ -57,9 +57,10 @@ const uint kPixelWalks = 32u;     // left to kStageWalks
 const uint kPixelWalksAcross = 64u;  // and to kStageWalksAcross
 const float kUnknownVisibility = -1.0f;  // painted magenta
 
-// The visibility pass of `witness`, unfiltered, goes in three dispatches: most pixels need no walk and are settled by the
-// first, which lists the others for the rest, those that cross no edge from the front and those that do from the back. One pass for both has every group of pixels walk if one must, and
-// lavapipe runs even a loop that no pixel enters once.
+// The visibility pass of `witness`, unfiltered, goes in three dispatches: most pixels need no walk and are settled by
+// the first, which lists the others for the rest, those that cross no edge from the front and those that do from the
+// back. One pass for all has every group of pixels walk if one must, and lavapipe runs even a loop that no pixel enters
+// once.
 const int kStageWhole = 0;  // one dispatch for all
 const int kStageLists = 1;
 const int kStageWalks = 2;

@@ -101,8 +101,7 @@ TEST_F(DrawnTriangle, IsTheFirstThatTheTexelsRayMeets) {
   }
 }
 
-// Drawn corner to corner, every edge and every depth is another than the ray's: the finer the mesh, the less so. Where a
-// texel names another triangle than its ray meets, that is one beside it.
+// Drawn corner to corner, every edge and every depth is another than the ray's: the finer the mesh, the less so.
 TEST_F(DrawnTriangle, BetweenProjectedCornersComesToTheRaysWithTheMeshsFineness) {
   double before = 1.0;
   for (const int rings : {8, 32}) {
