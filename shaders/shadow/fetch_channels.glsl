@@ -10,7 +10,7 @@ layout(constant_id = 5) const int kChannels = kChannelDepth;  // what the bias r
 layout(binding = kBindMapDepth) uniform texture2DArray depthSlices;
 layout(binding = kBindSecondDepth) uniform texture2DArray secondDepthSlices;
 layout(binding = kBindBackDepth) uniform texture2DArray backDepthSlices;
-layout(binding = kBindIds) uniform utexture2DArray idSlices;
+layout(binding = kBindIds) uniform usampler2DArray idSlices;
 layout(binding = kBindSecondIds) uniform utexture2DArray secondIdSlices;
 
 Tap fetchTap(ShadowMap map, int slice, ivec2 texel) {

@@ -27,6 +27,10 @@ bool isMeshHole(LookupTables tables, uint triangle, uint instance, vec3 weights)
   return isHole(material, uvs[v.x] * weights.x + uvs[v.y] * weights.y + uvs[v.z] * weights.z);
 }
 uint mapIdAt(LookupTables tables, int slice, ivec2 texel) { return texelFetch(idSlices, ivec3(texel, slice), 0).x; }
+uvec4 mapIdsAround(LookupTables tables, int slice, ivec2 first) {
+  vec2 corner = vec2(float(first.x + 1) / float(tables.mapWidth), float(first.y + 1) / float(tables.mapHeight));
+  return textureGather(idSlices, vec3(corner, float(slice))).wzxy;
+}
 float mapDepthAt(LookupTables tables, int slice, ivec2 texel) {
   return texelFetch(depthSlices, ivec3(texel, slice), 0).x;
 }

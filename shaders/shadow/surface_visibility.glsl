@@ -1,5 +1,6 @@
 // Visibility by biases that know the scene's surfaces (shared/surface_bias.glsl): their tables, and a tap of `witness`.
-// The including shader declares `shade`, `endMargin`, `idShift`, kMethod, kDiagnose, kMapKind and kMaskedScene.
+// The including shader declares `shade`, `endMargin`, `idShift`, kMethod, kDiagnose, kStage, kWitnessReach,
+// kMapKind and kMaskedScene.
 #ifndef GNOMON_SURFACE_VISIBILITY_GLSL
 #define GNOMON_SURFACE_VISIBILITY_GLSL
 
@@ -40,8 +41,15 @@ bool witnessTap(ShadowMap map, Receiver receiver, MapPoint point, vec2 at, out b
       if (!asked.covered) return false;
     }
   }
-  WitnessVerdict verdict = witnessVerdict(map, lookupTables(), shade.bias.witnessReach, receiver, target,
-                                          kFilter != kShadowFilterNone, asked);
+  WitnessVerdict verdict = litWithoutWalk(map, asked);
+  if (kStage == kStageLists) {
+    WitnessQuestion question = witnessQuestion(map, target, asked);
+    TexelsToAsk ask = texelsToAsk(map, lookupTables(), question, receiver.id, kWitnessReach);
+    pixelDiagnosis.flags |= ask.beyond != 0u ? kPixelWalksAcross : ask.held != 0u ? kPixelWalks : 0u;
+  } else {
+    WitnessAsking asking = WitnessAsking(kWitnessReach, kFilter != kShadowFilterNone, kStage != kStageWalks);
+    verdict = witnessVerdict(map, lookupTables(), asking, receiver, target, asked);
+  }
   lit = verdict.lit;
   if (kDiagnose == 1) {
     pixelDiagnosis.flags |= kPixelCovered | (lit ? kPixelLit : 0u);

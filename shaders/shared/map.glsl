@@ -187,7 +187,7 @@ GNOMON_FN vec2 mapTexelCenter(ShadowMap map, ivec2 texel) {
 // Whether a slice draws a texel of its rectangle, by the centre in texels, which the rasterizer has at hand: with the
 // texel's numbers instead, the exact drawing of a paraboloid took a sixteenth longer.
 GNOMON_FN bool mapHoldsTexelAt(ShadowMap map, vec2 center) {
-  return map.kind != kMapParaboloid || paraboloidHoldsTexelAt(map, center);
+  return mapKind(map) != kMapParaboloid || paraboloidHoldsTexelAt(map, center);
 }
 
 // Whether a slice draws this texel: it lies on its rectangle, and where the slice is less than that, within it.

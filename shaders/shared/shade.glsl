@@ -16,6 +16,9 @@ const int kBindRadiance = 15;    // vec3 a pixel
 const int kBindShade = 29;       // ShadeUniforms
 const int kBindVisibility = 30;  // float a pixel
 const int kBindDiagnosis = 31;   // PixelDiagnosis a pixel
+// Of the pixels that are left to a second dispatch of the visibility pass.
+const int kBindWalkers = 33;      // uint a pixel of the list: its number
+const int kBindWalkDispatch = 34; // WalkDispatch, of kStageWalks and of kStageWalksAcross
 const int kShadeGroupSide = 8;   // pixels; the work group is square
 
 struct ShadeUniforms {
@@ -50,7 +53,25 @@ const uint kPixelCovered = 2u;    // the map covers it
 const uint kPixelLit = 4u;
 const uint kPixelGrazing = 8u;    // the texel's ray does not meet the receiver's plane between near and far
 const uint kPixelUnknown = 16u;   // no such bias method
+const uint kPixelWalks = 32u;     // left to kStageWalks
+const uint kPixelWalksAcross = 64u;  // and to kStageWalksAcross
 const float kUnknownVisibility = -1.0f;  // painted magenta
+
+// The visibility pass of `witness`, unfiltered, goes in three dispatches: most pixels need no walk and are settled by
+// the first, which lists the others for the rest, those that cross no edge from the front and those that do from the
+// back. One pass for all has every group of pixels walk if one must, and lavapipe runs even a loop that no pixel enters
+// once.
+const int kStageWhole = 0;  // one dispatch for all
+const int kStageLists = 1;
+const int kStageWalks = 2;
+const int kStageWalksAcross = 3;  // those that ask texels beyond their slice's edge: a third more for every pixel
+
+// Arguments of a dispatch over a list, and how many it has to do; each is 1 when the first begins.
+struct WalkDispatch {
+  uint groupsX, groupsY, groupsZ;
+  uint countPlusOne;
+};
+const uint kMostWalkGroupsX = 64u;  // a dispatch may have 65,535 groups a side: pictures of 16,384 x 16,384
 
 GNOMON_FN uint packTexel(int slice, ivec2 texel) {
   return uint(texel.x) | (uint(texel.y) << 14u) | (uint(slice) << 28u);

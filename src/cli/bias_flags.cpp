@@ -138,9 +138,12 @@ void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases) {
   for (const BiasMethod& method : biasMethods())
     sentences += fmt::format("  {:<17} {}\n", method.name, method.sentence);
   verb.footer(sentences);
-  offersSomeOf(verb.add_option("--biases", flags.biases, fmt::format("comma-separated, or all: {}", biases))
-                   ->capture_default_str(),
-               namesOf(biasMethods()));
+  offersSomeOf(
+      verb.add_option(
+              "--biases", flags.biases,
+              fmt::format("comma-separated, or all: {}. witness has no parameter, and render draws with it", biases))
+          ->capture_default_str(),
+      namesOf(biasMethods()));
   offersFiles(
       verb.add_option("--bias-file", flags.biasFiles,
                       "GLSL file with your own bias, scored as one more row (docs/add_a_bias.md); may be repeated"));

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "judge/filtered_truth.h"
 #include "judge/texel_density.h"
+#include "judge/unseen_occluders.h"
 #include "shadow/occluders.h"
 
 #include <algorithm>
@@ -164,6 +165,12 @@ LabelledResult LightOnMap::judge(const Method& method) {
   const FittedMap& map = fitted();
   result.labels = labelPixels(view_.tracer(), light_, receivers(), truth(), result.verdicts,
                               [&](size_t pixel) { return texelRayW(map, diagnosis[pixel].texel); });
+  const ChannelSet channels = method.bias->channels;
+  if ((channels & glsl::kChannelIds) != 0) {
+    const std::vector<uint32_t> ids = occluders(channels).downloadIds(view_.device());
+    findUnseenOccluders(result.labels, view_, light_, receivers(), truth(),
+                        {.fitted = map, .ids = ids, .reach = method.params.witnessReach});
+  }
   return result;
 }
 
@@ -220,7 +227,10 @@ ImageF LightOnMap::picture(const Method& method, const ChosenFilter& filter) {
   const bool inOnePass =
       drawn.recordFrame(commands, view_.buffers(), passes_.frame, {.bias = *method.bias, .filter = filter},
                         exposedUniforms(exposure(), method.params));
-  if (!inOnePass) return radiance(visibility(method, filter));
+  if (!inOnePass) {
+    timeLookup(method, {.bias = *method.bias, .filter = filter, .once = true});
+    return radiance(gpu::downloadAs<float>(view_.device(), passes_.visibility.visibility()));
+  }
   commands.submitAndWait();
   const auto colors = gpu::downloadAs<glm::vec4>(view_.device(), passes_.frame.radiance());
   ImageF image(view_.view().width, view_.view().height, 3);

@@ -104,7 +104,7 @@ void MapImage::recordDrawing(gpu::Commands& commands, const MapRenderer& rendere
 
 void MapImage::recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                                 VisibilityPass& pass, const ShadowLookup& lookup) const {
-  pass.record(commands, scene, gbuffer, *this, lookup.bias, lookup.diagnose, lookup.filter);
+  pass.record(commands, scene, gbuffer, *this, lookup);
 }
 
 bool MapImage::recordFrame(gpu::Commands& commands, const SceneBuffers& scene, FramePass& pass,

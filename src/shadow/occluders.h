@@ -34,6 +34,8 @@ struct ShadowLookup {
   const BiasMethod& bias;
   ChosenFilter filter = glsl::kShadowFilterNone;
   bool diagnose = false;  // also which texel decided each pixel, and how; without a filter only
+  // Of one picture: in one dispatch, whose pipeline compiles sooner than several that would take less time together.
+  bool once = false;
 };
 
 class Occluders {

@@ -65,12 +65,17 @@ VisibilityPass::VisibilityPass(const gpu::Device& device, int width, int height)
           {.name = "shade uniforms", .size = sizeof(glsl::ShadeUniforms), .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
       visibility_(device, {.name = "visibility", .size = pixelBytes(width, height, sizeof(float))}),
       diagnosis_(device, {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}),
+      walkers_(device, {.name = "walkers", .size = pixelBytes(width, height, sizeof(uint32_t))}),
+      walkDispatches_(device, {.name = "walk dispatches",
+                               .size = 2 * sizeof(glsl::WalkDispatch),
+                               .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT}),
       noIds_(device,
              {.name = "no ids", .format = VK_FORMAT_R32_UINT, .array = true, .usage = VK_IMAGE_USAGE_SAMPLED_BIT}),
       programs_(device) {}
 
 void VisibilityPass::setUniforms(const glsl::ShadeUniforms& uniforms) {
   gpu::upload(device_, uniforms_, gpu::asPush(uniforms));
+  witnessReach_ = uniforms.bias.witnessReach;
 }
 
 const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
@@ -85,12 +90,17 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
                                                                             {.id = 5, .value = key.channels},
                                                                             {.id = 6, .value = key.filter},
                                                                             {.id = 7, .value = key.tapCount},
-                                                                            {.id = 9, .value = key.masked}})}));
+                                                                            {.id = 9, .value = key.masked},
+                                                                            {.id = 10, .value = key.stage},
+                                                                            {.id = 11, .value = key.witnessReach}})}));
   return variants_.back()->program;
 }
 
 void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                            const MapImage& map, const BiasMethod& method, bool diagnose, const ChosenFilter& filter) {
+                            const MapImage& map, const ShadowLookup& lookup) {
+  const BiasMethod& method = lookup.bias;
+  const ChosenFilter& filter = lookup.filter;
+  const bool diagnose = lookup.diagnose;
   GNOMON_CHECK(!diagnose || filter.id == glsl::kShadowFilterNone);
   GNOMON_CHECK_EQ(method.channels & ~map.channels(), 0);
   if (method.knowsSurfaces() &&
@@ -100,22 +110,43 @@ void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, 
         "another bias",
         method.name, device_.info().maxTexelBufferElements, scene.triangles.size() / sizeof(uint32_t)));
   const VisibilityPush push{.filter = filter.params, .endMargin = scene.endMargin, .idShift = scene.ids.shift};
-  std::vector<gpu::Binding> bindings = {
-      {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},
-      {glsl::kBindInstances, scene.instances}, {glsl::kBindUvs, scene.uvs},
-      {glsl::kBindMaterials, scene.materials}, {glsl::kBindTextures, scene.textures},
-      {glsl::kBindTexels, scene.texels},       {glsl::kBindMeshRows, scene.meshRows},
-      {glsl::kBindIdChunks, scene.idChunks},   {glsl::kBindTriangleFacts, scene.triangleFacts},
-      {glsl::kBindMap, map.uniforms()},        {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
-      {glsl::kBindShade, uniforms_},           {glsl::kBindVisibility, visibility_},
-      {glsl::kBindDiagnosis, diagnosis_}};
+  std::vector<gpu::Binding> bindings = {{glsl::kBindPositions, scene.positions},
+                                        {glsl::kBindTriangles, scene.triangles},
+                                        {glsl::kBindInstances, scene.instances},
+                                        {glsl::kBindUvs, scene.uvs},
+                                        {glsl::kBindMaterials, scene.materials},
+                                        {glsl::kBindTextures, scene.textures},
+                                        {glsl::kBindTexels, scene.texels},
+                                        {glsl::kBindMeshRows, scene.meshRows},
+                                        {glsl::kBindIdChunks, scene.idChunks},
+                                        {glsl::kBindTriangleFacts, scene.triangleFacts},
+                                        {glsl::kBindMap, map.uniforms()},
+                                        {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
+                                        {glsl::kBindShade, uniforms_},
+                                        {glsl::kBindVisibility, visibility_},
+                                        {glsl::kBindDiagnosis, diagnosis_},
+                                        {glsl::kBindWalkers, walkers_},
+                                        {glsl::kBindWalkDispatch, walkDispatches_}};
   for (const Channel& channel : channels()) {
     const bool lacksIds = channel.format == VK_FORMAT_R32_UINT && (map.channels() & channel.bit) == 0;
     bindings.emplace_back(channel.binding, lacksIds ? noIds_ : map.imageOrAny(channel.bit));
   }
-  commands.dispatch(program({method.id, diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0,
-                             method.channels, filter.id, filter.tapCount, scene.masked ? 1 : 0, method.user}),
-                    groupCount_, gpu::asPush(push), bindings);
+  const int reach = method.id == glsl::kBiasWitness ? witnessReach_ : 2;
+  const auto programOf = [&](int stage) -> const gpu::ComputeProgram& {
+    return program({method.id, diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0, method.channels,
+                    filter.id, filter.tapCount, scene.masked ? 1 : 0, stage, reach, method.user});
+  };
+  if (lookup.once || method.id != glsl::kBiasWitness || filter.id != glsl::kShadowFilterNone) {
+    commands.dispatch(programOf(glsl::kStageWhole), groupCount_, gpu::asPush(push), bindings);
+    return;
+  }
+  commands.fill(walkDispatches_, 1);
+  commands.barrier("the list of walks is empty -> pixels are listed");
+  commands.dispatch(programOf(glsl::kStageLists), groupCount_, gpu::asPush(push), bindings);
+  commands.barrier("pixels are listed -> they walk");
+  commands.dispatchIndirect(programOf(glsl::kStageWalks), walkDispatches_, 0, gpu::asPush(push), bindings);
+  commands.dispatchIndirect(programOf(glsl::kStageWalksAcross), walkDispatches_, sizeof(glsl::WalkDispatch),
+                            gpu::asPush(push), bindings);
 }
 
 RadiancePass::RadiancePass(const gpu::Device& device, int width, int height)

@@ -23,8 +23,9 @@ class VisibilityPass {
   // Compiles its pipeline on first use; throws WorldError that names a user's file and line where that does
   // not compile. A diagnosis is of the unfiltered map: with a filter there is none.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const MapImage& map,
-              const BiasMethod& method, bool diagnose, const ChosenFilter& filter = glsl::kShadowFilterNone);
+              const ShadowLookup& lookup);
 
+  // Before record(), whose pipeline is made for some of them.
   void setUniforms(const glsl::ShadeUniforms& uniforms);
 
   // Of other looks-up into these buffers (ShadowVolume), compiled at first use.
@@ -38,7 +39,7 @@ class VisibilityPass {
  private:
   // Specialization constants of shade_visibility.comp.glsl, in the order of their ids.
   struct VariantKey {
-    int32_t method, diagnose, mapKind, sliceCount, instanced, channels, filter, tapCount, masked;
+    int32_t method, diagnose, mapKind, sliceCount, instanced, channels, filter, tapCount, masked, stage, witnessReach;
     const UserBias* user;
     bool operator==(const VariantKey&) const = default;
   };
@@ -51,7 +52,9 @@ class VisibilityPass {
   const gpu::Device& device_;
   glm::uvec3 groupCount_;
   gpu::Buffer uniforms_, visibility_, diagnosis_;
-  gpu::Image noIds_;  // bound where a map has none
+  int witnessReach_ = 2;                  // of the uniforms
+  gpu::Buffer walkers_, walkDispatches_;  // pixels that another dispatch shades (glsl::kStageLists)
+  gpu::Image noIds_;                      // bound where a map has none
   std::vector<std::unique_ptr<Variant>> variants_;
   gpu::ComputePrograms programs_;
 };

@@ -18,6 +18,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,9 +31,23 @@ const char* labelName(Label label);  // "agree", "edge_shadow", ...
 // What an unfiltered map said of a pixel.
 enum class Verdict : uint8_t { NotAsked, Lit, Shadow, Uncovered };
 
+// Of a pixel with the label leak or edge_light: whether a map that names triangles could have told.
+enum class Unseen : uint8_t {
+  Nothing,   // a texel near names a triangle that shadows the pixel; or the pixel has another label
+  Triangle,  // none does, but one names another triangle of the same connected surface
+  Surface,   // no texel near sees anything of what shadows it: it is thinner than their spacing
+};
+
+struct UnseenOccluders {
+  std::vector<Unseen> of;  // one a pixel
+  size_t occluders = 0;    // pixels whose occluder is named by no texel
+  size_t surfaces = 0;     // of these, those whose occluder's surface is named by none
+};
+
 struct LabelImage {
   std::vector<Label> labels;  // one a pixel
   std::array<size_t, kLabelCount> counts{};
+  std::optional<UnseenOccluders> unseen;  // of a bias that reads ids (judge/unseen_occluders.h)
   size_t count(Label label) const { return counts[static_cast<size_t>(label)]; }
 };
 

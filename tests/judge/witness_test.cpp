@@ -83,6 +83,16 @@ std::optional<glsl::Receiver> receiverOf(const SceneView& seen, const LightOnMap
                                          id.triangle + seen.buffers().firstTriangles[id.instancePlusOne - 1])};
 }
 
+// In one dispatch instead of three.
+std::vector<float> visibilityAtOnce(LitMap& map, const Method& method) {
+  const Occluders& drawn = map.lit.occluders(method.bias->channels);
+  gpu::Commands commands(map.seen.device(), "visibility at once");
+  drawn.recordVisibility(commands, map.seen.buffers(), map.seen.gbuffer(), map.passes.visibility,
+                         {.bias = *method.bias, .once = true});
+  commands.submitAndWait();
+  return gpu::downloadAs<float>(map.seen.device(), map.passes.visibility.visibility());
+}
+
 TEST_F(Witness, WalksOnTheGpuAsOnTheCpu) {
   for (const char* scene : {"atrium", "sheets", "crowd:20000"}) {
     for (const Kind& kind : kinds()) {
@@ -100,8 +110,9 @@ TEST_F(Witness, WalksOnTheGpuAsOnTheCpu) {
           const std::optional<glsl::Receiver> receiver = receiverOf(map.seen, map.lit, i);
           if (!receiver || (pixels[i].flags & glsl::kPixelCovered) == 0) continue;
           const glsl::ShadowMap& shape = map.lit.fitted().map;
-          const glsl::WitnessVerdict verdict = glsl::witnessVerdict(
-              shape, host.tables(), reach, *receiver, receiver->posL, false, glsl::mapProject(shape, receiver->posL));
+          const glsl::WitnessVerdict verdict =
+              glsl::witnessVerdict(shape, host.tables(), glsl::askingOf(reach), *receiver, receiver->posL,
+                                   glsl::mapProject(shape, receiver->posL));
           ++asked;
           steps += verdict.tally.steps & 4095u;
           otherVerdicts += verdict.lit != ((pixels[i].flags & glsl::kPixelLit) != 0) ? 1 : 0;
@@ -112,6 +123,7 @@ TEST_F(Witness, WalksOnTheGpuAsOnTheCpu) {
                            : 0;
         }
         const std::string what = std::string(scene) + ", " + kind.label;
+        EXPECT_EQ(map.lit.visibility(method), visibilityAtOnce(map, method)) << what;
         EXPECT_GT(asked, pixels.size() / 8) << what;
         EXPECT_GT(steps, 100u) << what;
         // Elsewhere the last bits choose another texel, and so another walk to the same verdict.
@@ -120,6 +132,16 @@ TEST_F(Witness, WalksOnTheGpuAsOnTheCpu) {
       }
     }
   }
+}
+
+// The list of pixels that walk is cut in rows of groups of 64.
+TEST_F(Witness, AListLongerThanARowOfGroupsIsWalkedToItsEnd) {
+  LitMap map(device(), "factory", cubeParameterization(), 384, {.side = 64});
+  const Method method = atDefaults(findBias("witness"), map.seen);
+  size_t walked = 0;
+  for (const glsl::PixelDiagnosis& pixel : map.lit.diagnose(method)) walked += pixel.walkEnds != 0 ? 1 : 0;
+  EXPECT_GT(walked, 2 * 64 * glsl::kMostWalkGroupsX);
+  EXPECT_EQ(map.lit.visibility(method), visibilityAtOnce(map, method));
 }
 
 // A filter asks for points of the receiver's plane: what it gives is nearer to the exact shadow through the same kernel

@@ -153,6 +153,27 @@ TEST(Compare, TheTableHasTheBestFirst) {
   EXPECT_EQ(biases.back(), "none");
 }
 
+TEST(Compare, ThroughFiltersWitnessHasTheLeastErrorInNumbersAndForTheEye) {
+  const Session session({.validation = true}, {.scene = "atrium", .size = "160"});
+  CompareOptions options;
+  options.maps = parseMaps("cube");
+  options.biases = parseBiases("slope,adaptive,two-plane,witness");
+  options.filters = parseFilters("bilinear,jitter4x4");
+  options.mapSide = 256;
+  options.repeats = 1;
+  const Comparison comparison = compare(session, options);
+  ASSERT_EQ(comparison.rows.size(), 8u);
+  for (const Row& witness : comparison.rows) {
+    ASSERT_TRUE(witness.flip) << witness.bias << ", " << witness.filter;
+    if (witness.bias != "witness") continue;
+    for (const Row& other : comparison.rows) {
+      if (other.filter != witness.filter || other.bias == witness.bias) continue;
+      EXPECT_LT(witness.rmse, other.rmse) << other.bias << ", " << other.filter;
+      EXPECT_LT(*witness.flip, *other.flip) << other.bias << ", " << other.filter;
+    }
+  }
+}
+
 TEST(Compare, NoPictureHasANanOrAnInfinity) {
   for (const char* scene : {"sheets", "crowd:20000", "factory"}) {
     const Session session({.validation = true}, {.scene = scene, .size = "96"});

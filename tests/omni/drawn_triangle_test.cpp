@@ -4,6 +4,7 @@
 #include "omni/paraboloid_map.h"
 #include "omni_fixture.h"
 #include "planar/planar_map.h"
+#include "tests/truth/scenes_by_hand.h"
 
 #include <cmath>
 #include <numbers>
@@ -97,6 +98,27 @@ TEST_F(DrawnTriangle, IsTheFirstThatTheTexelsRayMeets) {
       expectNamed(nameTexels(*world.tracer, world.buffers, fitted, LightRays(world.scene, world.light), slices.ids),
                   slices.ids.size(), kind.straight, cornerGrid() > 0.0, std::string(scene) + ", " + kind.label);
     }
+  }
+}
+
+// Drawn corner to corner, every edge and every depth is another than the ray's: the finer the mesh, the less so.
+TEST_F(DrawnTriangle, BetweenProjectedCornersComesToTheRaysWithTheMeshsFineness) {
+  double before = 1.0;
+  for (const int rings : {8, 32}) {
+    Scene scene = test::emptyScene();
+    test::addSphere(scene, {0.0, 0.0, 0.0}, 4.0, rings, 2 * rings);
+    test::addSphere(scene, {1.5, 0.5, -1.0}, 0.5, rings / 4, rings / 2);
+    scene.lights.push_back({.name = "lamp", .type = LightType::Point, .positionW = {0.3f, 0.2f, 0.1f}});
+    const test::World world = test::openWorld(device(), std::move(scene));
+    const FittedMap fitted =
+        test::fitWhole(world, paraboloidParameterization(), 128, {kParaboloidRaster(ParaboloidRaster::Vertex)});
+    const test::Slices slices = test::drawSlices(device(), world, fitted, CullMode::None, glsl::kChannelIds);
+    const Named named =
+        nameTexels(*world.tracer, world.buffers, fitted, LightRays(world.scene, world.light), slices.ids);
+    EXPECT_GT(named.drawn, slices.ids.size() / 2);
+    const double share = static_cast<double>(named.others) / static_cast<double>(named.drawn);
+    EXPECT_LT(share, before / 2) << rings;
+    before = share;
   }
 }
 

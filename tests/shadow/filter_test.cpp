@@ -183,7 +183,7 @@ TEST_F(FilterOnTheGpu, TheVisibilityPassIsTheSumOfItsTaps) {
       VisibilityPass pass(device(), r.view.width, r.view.height);
       pass.setUniforms(shadeUniforms(r.view, r.light, params));
       gpu::Commands commands(device(), "visibility");
-      pass.record(commands, r.buffers, *r.gbuffer, *image, method, false, filter);
+      pass.record(commands, r.buffers, *r.gbuffer, *image, {.bias = method, .filter = filter});
       commands.submitAndWait();
       const auto visibility = gpu::downloadAs<float>(device(), pass.visibility());
       size_t different = 0, between = 0;
@@ -225,7 +225,7 @@ TEST_F(FilterOnTheGpu, AnUnknownFilterIsMarkedForMagenta) {
   VisibilityPass pass(device(), r.view.width, r.view.height);
   pass.setUniforms(shadeUniforms(r.view, r.light, {}));
   gpu::Commands commands(device(), "visibility");
-  pass.record(commands, r.buffers, *r.gbuffer, *r.image, findBias("none"), false, 999);
+  pass.record(commands, r.buffers, *r.gbuffer, *r.image, {.bias = findBias("none"), .filter = 999});
   commands.submitAndWait();
   const auto visibility = gpu::downloadAs<float>(device(), pass.visibility());
   EXPECT_GT(std::ranges::count(visibility, kUnknownVisibility), 100);

@@ -40,7 +40,7 @@ class UserBiasTest : public gpu::GpuTest {
     VisibilityPass pass(device(), r.view.width, r.view.height);
     pass.setUniforms(shadeUniforms(r.view, r.light, params));
     gpu::Commands commands(device(), "visibility");
-    pass.record(commands, r.buffers, *r.gbuffer, *image, method, false);
+    pass.record(commands, r.buffers, *r.gbuffer, *image, {.bias = method});
     commands.submitAndWait();
     return gpu::downloadAs<float>(device(), pass.visibility());
   }
@@ -187,7 +187,7 @@ TEST_F(UserBiasTest, TwoOfThemAreTwo) {
   for (const char* answer : {"true", "false"}) {
     kept_.push_back(load(signature + " { return " + answer + "; }"));
     gpu::Commands commands(device(), "visibility");
-    pass.record(commands, r.buffers, *r.gbuffer, *r.image, kept_.back()->method, false);
+    pass.record(commands, r.buffers, *r.gbuffer, *r.image, {.bias = kept_.back()->method});
     commands.submitAndWait();
     const auto seen = gpu::downloadAs<float>(device(), pass.visibility());
     size_t lit = 0;

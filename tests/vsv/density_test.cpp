@@ -443,7 +443,7 @@ TEST_F(DensityOnTheGpu, SurfacesAreAttenuatedByWhatTheTablesSay) {
   const auto surfaces = [&](const DensityBuffers* density) {
     world.pass.setMedium(world.view, world.setup.medium, density);
     gpu::Commands commands(device(), "surfaces");
-    visibility.record(commands, world.buffers, world.gbuffer, *world.cube, findBias("adaptive"), false);
+    visibility.record(commands, world.buffers, world.gbuffer, *world.cube, {.bias = findBias("adaptive")});
     world.pass.recordTable(commands, *world.volume, setup.light);
     commands.barrier("visibility and table are written -> surfaces and pixels read them");
     world.pass.record(commands, world.buffers, world.gbuffer, *world.volume, setup.light, mediaMethod("runs", 128),

@@ -290,7 +290,7 @@ TEST_F(MediaPassTest, SurfacesAreAttenuatedAlongBothLegs) {
   visibility.setUniforms(shade);
   world.pass.setMedium(world.view, world.setup.medium);
   gpu::Commands commands(device(), "surfaces");
-  visibility.record(commands, world.buffers, world.gbuffer, *world.cube, findBias("adaptive"), false);
+  visibility.record(commands, world.buffers, world.gbuffer, *world.cube, {.bias = findBias("adaptive")});
   world.pass.recordTable(commands, *world.volume, world.setup.light);
   commands.barrier("visibility and table are written -> surfaces and pixels read them");
   plain.record(commands, world.buffers, world.gbuffer, visibility.uniforms(), visibility.visibility());

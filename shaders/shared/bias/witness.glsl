@@ -57,7 +57,7 @@ struct WitnessQuestion {
   ivec2 first;  // the texel before it
   ivec2 nearest;
   vec2 fraction;
-  int crossing;      // which of the texels 1 .. 3 lies beyond the slice's edge, the first that does; 0: none
+  int crossing;      // a texel beyond the slice's edge that is asked now; -1: none
   MapTexel crossed;  // what another slice holds in its place
 };
 
@@ -75,45 +75,90 @@ GNOMON_FN WitnessQuestion witnessQuestion(ShadowMap map, vec3 target, MapPoint p
   question.first = ivec2(int(floor(position.x)), int(floor(position.y)));
   question.fraction = vec2(position.x - float(question.first.x), position.y - float(question.first.y));
   question.nearest = ivec2(question.fraction.x > 0.5f ? 1 : 0, question.fraction.y > 0.5f ? 1 : 0);
-  bool holds1 = mapHoldsTexel(map, question.slice, wantedTexel(question, 1));
-  bool holds2 = mapHoldsTexel(map, question.slice, wantedTexel(question, 2));
-  bool holds3 = mapHoldsTexel(map, question.slice, wantedTexel(question, 3));
-  question.crossing = !holds1 ? 1 : !holds2 ? 2 : !holds3 ? 3 : 0;
-  question.crossed = mapTexelAcross(map, question.slice, wantedTexel(question, question.crossing), target);
+  question.crossing = -1;
+  question.crossed.slice = point.slice;
+  question.crossed.texel = question.first;
+  question.crossed.held = false;
   return question;
 }
 
-// Texel i. Of those beyond the slice's edge one is looked up in another slice: on lavapipe, which runs what one pixel
-// of eight needs for all, to look up each took two fifths of the pass.
+GNOMON_FN bool isWanted(WitnessQuestion question, int i) {
+  ivec2 offset = witnessOffset(i, question.nearest);
+  // A centre's own texel is all that surrounds it.
+  bool outside = (offset.x == 1 && question.fraction.x == 0.0f) || (offset.y == 1 && question.fraction.y == 0.0f);
+  return i < 4 ? !outside : !isInnerOffset(offset);
+}
+
+// Texel i: of the receiver's slice, or what is known of it in another.
 GNOMON_FN MapTexel askedTexel(ShadowMap map, WitnessQuestion question, int i) {
   MapTexel asked;
   asked.slice = question.slice;
   asked.texel = wantedTexel(question, i);
   asked.held = mapHoldsTexel(map, question.slice, asked.texel);
-  if (i != 0 && i == question.crossing) asked = question.crossed;
+  if (i == question.crossing) asked = question.crossed;
   return asked;
 }
 
-// Which of the texels `from` .. `to` - 1 name a triangle that is neither the receiver's nor what one before them names:
-// bits. Most receivers have none, and nothing more to do.
-GNOMON_FN uint texelsToAsk(ShadowMap map, LookupTables tables, WitnessQuestion question, uint ownId, int from, int to) {
-  uint bits = 0u;
-  uint lastId = ownId;
-  uint lastButOne = ownId;
-  for (int i = from; i < to; ++i) {
+// Which texels there are to ask, as bits.
+struct TexelsToAsk {
+  uint held;    // of the receiver's slice, whose triangle is neither the receiver's nor what one before them names
+  uint beyond;  // across the slice's edge
+};
+
+// An id among those that are known already.
+struct KnownIds {
+  uint own, before1, before2, before3;  // the receiver's, and the last of others
+};
+
+GNOMON_FN bool isKnownId(KnownIds known, uint id) {
+  return id == kNoId || id == known.own || id == known.before1 || id == known.before2 || id == known.before3;
+}
+
+GNOMON_FN TexelsToAsk withTexel(TexelsToAsk ask, bool held, bool known, int i) {
+  TexelsToAsk more = ask;
+  more.held |= held && !known ? 1u << uint(i) : 0u;
+  more.beyond |= held ? 0u : 1u << uint(i);
+  return more;
+}
+
+GNOMON_FN KnownIds withId(KnownIds known, uint id) {
+  KnownIds more = known;
+  more.before3 = known.before2;
+  more.before2 = known.before1;
+  more.before1 = id;
+  return more;
+}
+
+// Most receivers have none, and nothing more to do.
+GNOMON_FN TexelsToAsk texelsToAsk(ShadowMap map, LookupTables tables, WitnessQuestion question, uint ownId, int reach) {
+  TexelsToAsk ask;
+  ask.held = 0u;
+  ask.beyond = 0u;
+  KnownIds known;
+  known.own = ownId;
+  known.before1 = ownId;
+  known.before2 = ownId;
+  known.before3 = ownId;
+  uvec4 ids = mapIdsAround(tables, question.slice, question.first);
+  for (int i = 0; i < 4; ++i) {
     ivec2 offset = witnessOffset(i, question.nearest);
-    // A centre's own texel is all that surrounds it.
-    bool outside = (offset.x == 1 && question.fraction.x == 0.0f) || (offset.y == 1 && question.fraction.y == 0.0f);
-    if (i < 4 ? outside : isInnerOffset(offset)) continue;
-    MapTexel found = askedTexel(map, question, i);
-    if (!found.held) continue;
-    uint id = mapIdAt(tables, found.slice, found.texel);
-    if (id == kNoId || id == ownId || id == lastId || id == lastButOne) continue;
-    bits |= 1u << uint(i);
-    lastButOne = lastId;
-    lastId = id;
+    uint above = offset.x == 1 ? ids.y : ids.x;
+    uint below = offset.x == 1 ? ids.w : ids.z;
+    uint id = offset.y == 1 ? below : above;
+    bool held = mapHoldsTexel(map, question.slice, wantedTexel(question, i));
+    if (isWanted(question, i)) ask = withTexel(ask, held, isKnownId(known, id), i);
+    if (held) known = withId(known, id);
   }
-  return bits;
+  if (reach != 4) return ask;
+  for (int i = 4; i < 20; ++i) {
+    if (!isWanted(question, i)) continue;
+    ivec2 texel = wantedTexel(question, i);
+    bool held = mapHoldsTexel(map, question.slice, texel);
+    uint id = held ? mapIdAt(tables, question.slice, texel) : kNoId;
+    ask = withTexel(ask, held, isKnownId(known, id), i);
+    if (held) known = withId(known, id);
+  }
+  return ask;
 }
 
 // A search through all texels to ask: one loop, in which each turn goes one triangle further, be it of this walk or the
@@ -146,22 +191,60 @@ GNOMON_FN bool belongsToReceiver(LookupTables tables, Receiver receiver, PlacedT
   return end == kWalkReceiver || end == kWalkBehind;
 }
 
-// `point`: where `target` falls on the map, which covers it. `isTap`: that is not the receiver's own point.
-GNOMON_FN WitnessVerdict witnessVerdict(ShadowMap map, LookupTables tables, int reach, Receiver receiver, vec3 target,
-                                        bool isTap, MapPoint point) {
+GNOMON_FN WitnessVerdict litWithoutWalk(ShadowMap map, MapPoint point) {
+  WitnessVerdict verdict;
+  verdict.lit = true;
+  verdict.slice = point.slice;
+  verdict.texel = mapTexel(map, point.uv);
+  verdict.tally.ends = 0u;
+  verdict.tally.steps = 0u;
+  return verdict;
+}
+
+// How `witness` is asked.
+struct WitnessAsking {
+  int reach;         // texels a side
+  bool isTap;        // not for the receiver's own point
+  bool crossesEdge;  // false: no texel beyond the slice's edge is wanted, which need not be looked for
+};
+
+GNOMON_FN WitnessAsking askingOf(int reach) {
+  WitnessAsking asking;
+  asking.reach = reach;
+  asking.isTap = false;
+  asking.crossesEdge = true;
+  return asking;
+}
+
+// `point`: where `target` falls on the map, which covers it. Of what texelsToAsk() has nothing for, the verdict is
+// litWithoutWalk().
+GNOMON_FN WitnessVerdict witnessVerdict(ShadowMap map, LookupTables tables, WitnessAsking asking, Receiver receiver,
+                                        vec3 target, MapPoint point) {
   WitnessQuestion question = witnessQuestion(map, target, point);
   PlacedTriangle own = placedTriangle(tables, receiver.id);
+  TexelsToAsk ask = texelsToAsk(map, tables, question, receiver.id, asking.reach);
+  if (!asking.crossesEdge) ask.beyond = 0u;
+  WitnessVerdict verdict = litWithoutWalk(map, point);
   WitnessSearch search;
-  search.pending = texelsToAsk(map, tables, question, receiver.id, 0, 4);
-  if (reach == 4) search.pending |= texelsToAsk(map, tables, question, receiver.id, 4, 20);
+  search.pending = ask.held;
   search.texel = 0;
   search.along = target;
   search.walk = beginWalk(own);
   search.walk.end = kWalkBehind;
-  search.tally.ends = 0u;
-  search.tally.steps = 0u;
+  search.tally = verdict.tally;
   bool shadowed = false;
-  while (!shadowed && search.pending != 0u) {
+  while (!shadowed && (search.pending | ask.beyond) != 0u) {
+    // One texel beyond the edge goes with the others: on lavapipe, which runs what one pixel of eight needs for all, to
+    // look up each by itself would cost all pixels three look-ups.
+    bool isFree = question.crossing < 0 || (search.pending & (1u << uint(question.crossing))) == 0u;
+    if (asking.crossesEdge && isFree && ask.beyond != 0u) {
+      question.crossing = findLSB(ask.beyond);
+      ask.beyond &= ask.beyond - 1u;
+      question.crossed = mapTexelAcross(map, question.slice, wantedTexel(question, question.crossing), target);
+      uint id = kNoId;
+      if (question.crossed.held) id = mapIdAt(tables, question.crossed.slice, question.crossed.texel);
+      if (id != kNoId && id != receiver.id) search.pending |= 1u << uint(question.crossing);
+    }
     // Until a walk claims something, or all are at their end.
     bool claims = false;
     while (!claims && (search.pending != 0u || search.walk.end == kWalkOn)) {
@@ -176,15 +259,16 @@ GNOMON_FN WitnessVerdict witnessVerdict(ShadowMap map, LookupTables tables, int 
       search.tally = tallied(search.tally, search.walk);
     }
     if (claims && search.walk.end == kWalkWitness) search.tally = tallied(search.tally, search.walk);
-    shadowed = claims && !(isTap && belongsToReceiver(tables, receiver, own, search.walk));
+    shadowed = claims && !(asking.isTap && belongsToReceiver(tables, receiver, own, search.walk));
     if (!shadowed) search.walk.end = kWalkBehind;
   }
-  WitnessVerdict verdict;
-  verdict.lit = !shadowed;
   MapTexel decided = askedTexel(map, question, search.texel);
-  verdict.slice = shadowed ? decided.slice : point.slice;
-  verdict.texel = shadowed ? decided.texel : mapTexel(map, point.uv);
   verdict.tally = search.tally;
+  if (shadowed) {
+    verdict.lit = false;
+    verdict.slice = decided.slice;
+    verdict.texel = decided.texel;
+  }
   return verdict;
 }
 

@@ -143,7 +143,8 @@ void BenchStages::addMaps() {
   const MapOptions& given = options_.mapOptions;
   const auto buildWithVariants = [&](const Parameterization& kind) {
     build(kind.name(), kind, given,
-          {glsl::kChannelDepth, glsl::kChannelDepth | glsl::kChannelSecondDepth, glsl::kChannelBackDepth});
+          {glsl::kChannelDepth, glsl::kChannelDepth | glsl::kChannelSecondDepth, glsl::kChannelBackDepth,
+           glsl::kChannelDepth | glsl::kChannelIds});
     for (const Parameterization::Variant& variant : kind.variants(given))
       build(fmt::format("{}, {}", kind.name(), variant.name), kind, variant.options, {glsl::kChannelDepth});
   };

@@ -118,6 +118,8 @@ void describe(Row& row, const Entry& entry, const LabelledResult& judged) {
   row.edgeLight = labels.count(Label::EdgeLight);
   row.uncovered = labels.count(Label::Uncovered);
   row.scored = row.agree + row.acne + row.leak + row.edgeShadow + row.edgeLight + row.uncovered;
+  if (labels.unseen) row.unseenOccluder = labels.unseen->occluders;
+  if (labels.unseen) row.unseenSurface = labels.unseen->surfaces;
   row.grazing = judged.grazing;
   row.edgeOn = judged.edgeOn.size();
   row.walks = walksOf(judged.walks);
@@ -411,6 +413,8 @@ void addSums(Comparison& comparison) {
     for (const auto count : {&Row::scored, &Row::agree, &Row::acne, &Row::leak, &Row::edgeShadow, &Row::edgeLight,
                              &Row::uncovered, &Row::grazing, &Row::edgeOn})
       (*found).*count += row.*count;
+    for (const auto count : {&Row::unseenOccluder, &Row::unseenSurface})
+      if (row.*count) (*found).*count = ((*found).*count).value_or(0) + *(row.*count);
     found->rmse = std::sqrt(squares / static_cast<double>(found->scored));
     found->buildMs += row.buildMs;
     found->shadeMs += row.shadeMs;

@@ -97,6 +97,8 @@ TemplateData countsView(const Row& row) {
   add("scored", row.scored);
   add("agree", row.agree);
   for (const Part& part : kBarParts) add(part.title, row.*part.count);
+  if (row.unseenOccluder) add("of leak and edge: occluder named by no texel", *row.unseenOccluder);
+  if (row.unseenSurface) add("of these: nor anything of its surface", *row.unseenSurface);
   add("uncovered", row.uncovered);
   return list;
 }

@@ -58,6 +58,8 @@ void fillRectangle(Image8& image, int x0, int y0, int x1, int y1, const glm::u8v
     for (int x = std::max(x0, 0); x < std::min(x1, image.width); ++x) setPixel(image, x, y, color);
 }
 
+constexpr glm::u8vec3 kUnseen(0, 158, 115);  // bluish green
+
 struct LegendEntry {
   std::string text;
   glm::u8vec3 color;
@@ -67,6 +69,7 @@ std::vector<LegendEntry> legendEntries(const LabelImage& labels, const Receivers
   std::vector<LegendEntry> entries = {{fmt::format("agree {} (lit, shadow)", labels.count(Label::Agree)), kAgreeLit}};
   for (const Label label : {Label::Acne, Label::Leak, Label::EdgeShadow, Label::EdgeLight, Label::Uncovered})
     entries.push_back({fmt::format("{} {}", labelName(label), labels.count(label)), labelColor(label)});
+  if (labels.unseen) entries.push_back({fmt::format("of these, unseen {}", labels.unseen->occluders), kUnseen});
   entries.push_back({fmt::format("not scored {}", receivers.facingAway + receivers.outsideCone), kDark});
   return entries;
 }
@@ -218,6 +221,8 @@ Image8 labelPicture(const Receivers& receivers, const Truth& truth, const LabelI
         color = kNothing;
       else if (labels.labels[i] == Label::Agree && truth.lit[i] == 0)
         color = kAgreeShadow;
+      else if (labels.unseen && labels.unseen->of[i] != Unseen::Nothing)
+        color = kUnseen;
       setPixel(image, x, y, color);
     }
   }

@@ -12,7 +12,7 @@
 namespace gnomon {
 
 // `truth` darkens what agrees and is in shadow, so that shapes stay readable. A strip below the picture names
-// every colour and counts its pixels.
+// every colour and counts its pixels. Leak and edge_light whose occluder no texel names have a colour of their own.
 Image8 labelPicture(const Receivers& receivers, const Truth& truth, const LabelImage& labels, const std::string& title);
 
 // One value a pixel: 1 white, 0 black; kUnknownVisibility magenta; pixels without a surface dark blue.

@@ -169,6 +169,7 @@ struct Row {
   std::string filter = "none";
   size_t scored = 0, agree = 0, acne = 0, leak = 0, edgeShadow = 0, edgeLight = 0, uncovered = 0;
   size_t grazing = 0, edgeOn = 0;
+  std::optional<size_t> unseenOccluder, unseenSurface;
   double rmse = 0.0;
   std::optional<double> flip;
   double buildMs = 0.0, shadeMs = 0.0, frameMs = 0.0;
@@ -240,6 +241,21 @@ struct Row {
                .metric = true,
                .inFile = false}),
         labelCount("uncovered", &Row::uncovered, "Uncovered", {"uncovered", 9, 0, 4}, Hides::Everywhere),
+        field("unseen_occluder", &Row::unseenOccluder,
+              {.unit = "pixels",
+               .says = "of leak and edge_light: no texel near names a triangle that shadows the pixel; of biases that "
+                       "read ids, else left out",
+               .absent = Absent::LeftOut,
+               .kind = NumberKind::Count,
+               .table = {"unseen", 7, 0, kWideOnly},
+               .hides = Hides::Everywhere}),
+        field("unseen_surface", &Row::unseenSurface,
+              {.unit = "pixels",
+               .says = "of these: none names a triangle of the surface that shadows it; likewise",
+               .absent = Absent::LeftOut,
+               .kind = NumberKind::Count,
+               .table = {"uns surf", 8, 0, kWideOnly},
+               .hides = Hides::Everywhere}),
         field("grazing", &Row::grazing,
               {.unit = "pixels",
                .says = "whose texel ray does not meet the receiver's plane between near and far; the receiver's own "
