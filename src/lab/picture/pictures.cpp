@@ -69,7 +69,8 @@ std::vector<LegendEntry> legendEntries(const LabelImage& labels, const Receivers
   std::vector<LegendEntry> entries = {{fmt::format("agree {} (lit, shadow)", labels.count(Label::Agree)), kAgreeLit}};
   for (const Label label : {Label::Acne, Label::Leak, Label::EdgeShadow, Label::EdgeLight, Label::Uncovered})
     entries.push_back({fmt::format("{} {}", labelName(label), labels.count(label)), labelColor(label)});
-  if (labels.unseen) entries.push_back({fmt::format("of these, unseen {}", labels.unseen->occluders), kUnseen});
+  if (labels.unseen)
+    entries.push_back({fmt::format("of leak and edge_light unseen {}", labels.unseen->occluders), kUnseen});
   entries.push_back({fmt::format("not scored {}", receivers.facingAway + receivers.outsideCone), kDark});
   return entries;
 }
