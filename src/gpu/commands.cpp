@@ -239,6 +239,14 @@ void Commands::dispatch(const ComputeProgram& program, glm::uvec3 groupCount, st
   vkCmdDispatch(commands_, groupCount.x, groupCount.y, groupCount.z);
 }
 
+void Commands::dispatchIndirect(const ComputeProgram& program, const Buffer& arguments, VkDeviceSize offset,
+                                std::span<const std::byte> push, const std::vector<Binding>& bindings) {
+  GNOMON_CHECK(!inRendering_);
+  GNOMON_CHECK_LE(offset + sizeof(VkDispatchIndirectCommand), arguments.size());
+  recordProgram(device_, commands_, program, push, bindings);
+  vkCmdDispatchIndirect(commands_, arguments.handle(), offset);
+}
+
 void Commands::beginDynamic(const RenderTargets& targets, VkExtent2D extent) {
   std::vector<VkRenderingAttachmentInfo> colors;
   for (const ColorTarget& color : targets.colors) {

@@ -71,6 +71,10 @@ class Commands {
   void dispatch(const ComputeProgram& program, glm::uvec3 groupCount, std::span<const std::byte> push,
                 const std::vector<Binding>& bindings);
 
+  // `arguments`: a VkDispatchIndirectCommand at this offset; its usage has VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT.
+  void dispatchIndirect(const ComputeProgram& program, const Buffer& arguments, VkDeviceSize offset,
+                        std::span<const std::byte> push, const std::vector<Binding>& bindings);
+
   // Viewport and scissor cover the targets; culling is off until setCulling.
   void beginRendering(const RenderTargets& targets);
   void bind(const GraphicsProgram& program, std::span<const std::byte> push, const std::vector<Binding>& bindings);

@@ -83,6 +83,9 @@ std::vector<gpu::Binding> bindingsOf(const gpu::GraphicsProgram& program, const 
       case glsl::kBindBoundedTriangles:
         bindings.emplace_back(wanted.index, bounded.triangles());
         break;
+      case glsl::kBindBoundedDraw:
+        bindings.emplace_back(wanted.index, bounded.arguments());
+        break;
       default:
         break;  // bind() says what is missing
     }
@@ -290,7 +293,7 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
                           .facing = backFaces ? -front : front});
     }
     for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
-      bounded_.record(commands, scene, slice.map.uniforms(), shaders.bounds, slice.index, batch);
+      bounded_.record(commands, scene, slice.map.uniforms(), shaders, slice.index, batch);
       commands.beginRendering(targets);
       const gpu::GraphicsProgram& drawn = program(keyOf(slice, masked));
       commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
