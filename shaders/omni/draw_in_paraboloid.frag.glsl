@@ -1,5 +1,5 @@
-// shadow/draw_bounded_triangle.frag.glsl for paraboloid maps alone: the same decisions and depths up to rounding, in half
-// as many operations, since the ray need not be unit (paraboloidDrawnRay), and without a load.
+// shadow/draw_bounded_triangle.frag.glsl for paraboloid maps alone: the same decisions and depths up to rounding, in
+// half as many operations, since the ray need not be unit (paraboloidDrawnRay), and without a load.
 #include "shared/map.glsl"
 
 #include "shadow/bounded_fragment.glsl"

@@ -5,8 +5,8 @@
 #define GNOMON_BOUNDED in
 #endif
 // In the fourth components numbers of the map (mapDrawnNumbers): lavapipe loads a uniform anew for every eight
-// fragments, and divides anew, which took a third of the time in which a paraboloid is drawn. Few, because it copies them
-// for every vertex.
+// fragments, and divides anew, which took a third of the time in which a paraboloid is drawn. Few, because it copies
+// them for every vertex.
 layout(location = 0) GNOMON_BOUNDED flat vec4 sideAAndNumber;
 layout(location = 1) GNOMON_BOUNDED flat vec4 sideBAndNumber;
 layout(location = 2) GNOMON_BOUNDED flat vec4 sideCAndNumber;

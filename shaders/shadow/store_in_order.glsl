@@ -1,6 +1,7 @@
 // Takes the place of store_channels.glsl where fragments see, in the order of the triangles, what the texel holds
 // (SecondLayer::Ordered): one pass keeps the two nearest depths, and which triangles they are of. Each pair is one
-// image, since lavapipe takes as long to read a component of a colour as all of it (two images: 2.5 of one layer, not 1.7).
+// image: lavapipe takes as long to read one component of a colour as two (of one layer's time two images took 2.5, one
+// 1.7).
 //
 // The bits are those of the two passes. A depth that equals the first is not the second, and of fragments with equal
 // depths the first one drawn stays: no later one takes its place, and it is passed over only where two nearer ones are

@@ -13,7 +13,7 @@ const int kBindLargeTriangles = 19;    // LargeTriangle[]
 const int kBoundGroupSize = 64;
 
 // How many there are. In its buffer follows the list of what is drawn, three vertices each: 2 i + h is half h of
-// triangle i's four corners, the first, second and third or the third, fourth and first. Most bounds have three corners.
+// triangle i's four corners, the first, second and third or the third, fourth and first. Most bounds have three.
 struct BoundedDraw {
   uint vertexCount;  // the front is a VkDrawIndirectCommand
   uint instanceCount, firstVertex, firstInstance;

@@ -172,8 +172,8 @@ GNOMON_FN float mapDistance(ShadowMap map, int slice, Ray ray, float depth) {
   return 0.0f;
 }
 
-// What a fragment shader of one kind of map needs of it while it is drawn (shadow/bounded_varyings.glsl), in an order that
-// its own functions know.
+// What a fragment shader of one kind of map needs of it while it is drawn (shadow/bounded_varyings.glsl), in an order
+// that its own functions know.
 GNOMON_FN vec4 mapDrawnNumbers(ShadowMap map) {
   switch (mapKind(map)) {
     case kMapParaboloid:

@@ -1,5 +1,5 @@
-// shadow/draw_bounded_triangle.frag.glsl for a shadow volume's columns alone, with the same bits but without a load. Sines
-// and cosines from a table, two fetches a fragment, took longer than the four of them.
+// shadow/draw_bounded_triangle.frag.glsl for a shadow volume's columns alone, with the same bits but without a load.
+// (Sines and cosines from a table, two fetches a fragment, took longer than the four of them.)
 #include "shared/map.glsl"
 
 #include "shadow/bounded_fragment.glsl"

@@ -13,8 +13,8 @@
 
 namespace gnomon::gpu {
 
-// A resource for one binding of a program: a storage buffer, a storage image, a sampled image (texelFetch), or one layer
-// of an image as an input attachment.
+// A resource for one binding of a program: a storage buffer, a storage image, a sampled image (texelFetch), or one
+// layer of an image as an input attachment.
 struct Binding {
   uint32_t index;
   const Buffer* buffer = nullptr;

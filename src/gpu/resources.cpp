@@ -319,10 +319,8 @@ std::vector<std::byte> download(const Device& device, const Image& image) {
   GNOMON_CHECK(texel > 0);  // it knows the format
   const VkDeviceSize size = packedBytes(image.desc());
   const VkDeviceSize stride = image.component() ? texelBytes(image.component()->format) : texel;
-  const Buffer staging(device, {.name = "staging for download",
-                                .size = size / texel * stride,
-                                .usage = 0,
-                                .memory = Memory::Readback});
+  const Buffer staging(
+      device, {.name = "staging for download", .size = size / texel * stride, .usage = 0, .memory = Memory::Readback});
   Commands commands(device, "download image");
   commands.copy(image, staging);
   commands.submitAndWait();

@@ -51,11 +51,12 @@ void BoundedDraws::makeRoom() {
   const VkDeviceSize most = kBatchTriangles + glsl::kMostExtraTriangles;
   triangles_ = gpu::Buffer(device_, {.name = "bounded triangles", .size = most * sizeof(glsl::BoundedTriangle)});
   large_ = gpu::Buffer(device_, {.name = "large triangles", .size = kBatchTriangles * sizeof(glsl::LargeTriangle)});
-  arguments_ = gpu::Buffer(device_, {.name = "bounded draw",
-                                     .size = sizeof(glsl::BoundedDraw) + 2 * most * sizeof(uint32_t),
-                                     .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
-  noArguments_ = gpu::createBufferWith(
-      device_, "no bounded draw", std::vector<glsl::BoundedDraw>{{.instanceCount = 1, .one = 1, .oneMore = 1}});
+  arguments_ =
+      gpu::Buffer(device_, {.name = "bounded draw",
+                            .size = sizeof(glsl::BoundedDraw) + 2 * most * sizeof(uint32_t),
+                            .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+  noArguments_ = gpu::createBufferWith(device_, "no bounded draw",
+                                       std::vector<glsl::BoundedDraw>{{.instanceCount = 1, .one = 1, .oneMore = 1}});
 }
 
 void BoundedDraws::record(gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& mapUniforms,

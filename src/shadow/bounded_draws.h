@@ -27,7 +27,7 @@ class BoundedDraws {
     int facing = 0;        // 1: only what winds counter-clockwise seen from the light, -1: only the rest, 0: both
   };
   using Batch = std::vector<Piece>;
-  static constexpr uint32_t kBatchTriangles = 1u << 18;  // 46 MiB with what they may be cut into
+  static constexpr uint32_t kBatchTriangles = 1u << 18;  // 53 MiB with what they may be cut into
   static std::vector<Batch> batches(const std::vector<Piece>& pieces);
 
   // Makes the list of one batch for a slice; a draw may read it after.

@@ -104,9 +104,9 @@ MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, ChannelSe
   if (drawsInOrder()) {
     alone &= ~writtenBy(ChannelPass::Both, channels_);
     const auto draw = [&](gpu::Image& pair, const char* name, VkFormat format) {
-      pair = gpu::Image(device, slicesDesc(name, format,
-                                           VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT,
-                                           fitted.map));
+      pair = gpu::Image(
+          device, slicesDesc(name, format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT,
+                             fitted.map));
     };
     const auto show = [&](ChannelSet channel, const gpu::Image& pair, VkFormat format, int component) {
       if ((channels_ & channel) == 0) return;
@@ -202,9 +202,9 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
   // Stands for shadow/store_channels.glsl.
   static const std::map<std::string, std::string> kStoreInOrder = {
       {"shadow/store_channels.glsl", "#include \"shadow/store_in_order.glsl\"\n"}};
-  gpu::GraphicsDesc desc{.name = key.ordered()                     ? "draw two depths"
+  gpu::GraphicsDesc desc{.name = key.ordered()                    ? "draw two depths"
                                  : key.pass == glsl::kPassNearest ? "draw depth"
-                                                                   : "draw second depth",
+                                                                  : "draw second depth",
                          .vertex = {key.shaders.vertex, {}},
                          .fragment = {.path = key.needsFragments() ? key.shaders.fragment : "",
                                       .overrides = key.ordered() ? kStoreInOrder : decltype(kStoreInOrder){}},
@@ -378,10 +378,10 @@ void MapRenderer::recordSlices(gpu::Commands& commands, const SceneBuffers& scen
       const bool culled = (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
       return !culled ? Group::Sheets : draw.mirrored ? Group::MirroredSolids : Group::Solids;
     };
-    const int shaderPass = pass == ChannelPass::Both            ? glsl::kPassOrdered
-                           : pass != ChannelPass::Second        ? glsl::kPassNearest
+    const int shaderPass = pass == ChannelPass::Both           ? glsl::kPassOrdered
+                           : pass != ChannelPass::Second       ? glsl::kPassNearest
                            : map.second_ == SecondLayer::Blend ? glsl::kPassBlend
-                                                                : glsl::kPassPeel;
+                                                               : glsl::kPassPeel;
     Slice slice{map, first, count, pass, shaderPass, targetsOf(map, pass)};
     if (multiview)
       slice.targets.viewMask = (1u << count) - 1u;

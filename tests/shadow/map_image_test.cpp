@@ -141,8 +141,8 @@ TEST_F(MapImageTest, HolesOfMasksAreHolesOfTheMap) {
   EXPECT_LT(offAtRims, 5u);  // of the texels that a rim crosses 0.0055
 }
 
-// The paper's peel, the blend and the pass in order give the same two layers, to the bit, on every generated scene, culled
-// and not.
+// The paper's peel, the blend and the pass in order give the same two layers, to the bit, on every generated scene,
+// culled and not.
 TEST_F(MapImageTest, BlendingPeelingAndDrawingInOrderGiveTheSameTwoLayers) {
   for (const GeneratedScene& generated : generatedScenes()) {
     for (const Parameterization* map : planarParameterizations()) {
