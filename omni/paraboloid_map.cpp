@@ -88,9 +88,10 @@ SliceShaders shadersFor(ParaboloidRaster raster) {
   shaders.projective = false;
   if (raster == ParaboloidRaster::Exact) {
     shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
-    shaders.fragment = "shadow/draw_bounded_triangle.frag.glsl";
+    shaders.fragment = "omni/draw_in_paraboloid.frag.glsl";
     shaders.rasterizedDepth = false;
     shaders.bounds = "omni/bound_in_paraboloid.comp.glsl";
+    shaders.largeBounds = "omni/bound_large_in_paraboloid.comp.glsl";
   } else if (raster == ParaboloidRaster::Tessellated) {
     shaders.vertex = "omni/pull_straight_triangle.vert.glsl";
     shaders.bounds = "omni/cut_for_paraboloid.comp.glsl";

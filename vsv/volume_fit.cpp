@@ -192,7 +192,7 @@ FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit
   SliceShaders& shaders = columns.shaders;
   shaders.projective = false;
   shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
-  shaders.fragment = "shadow/draw_bounded_triangle.frag.glsl";
+  shaders.fragment = "vsv/draw_in_epipolar.frag.glsl";
   shaders.rasterizedDepth = false;
   shaders.bounds = "vsv/bound_in_epipolar.comp.glsl";
   return columns;

@@ -1,14 +1,13 @@
-// The triangles that a slice of a paraboloid map shows, one invocation each; large ones have a bound for each of
-// several pieces, all with the whole triangle's planes, so that no texel is decided otherwise.
-#include "shared/bounded_triangle.glsl"
+// The triangles that a slice of a paraboloid map shows, one invocation each. Those that take long are left to
+// bound_large_in_paraboloid.comp.glsl: lavapipe runs both sides of every branch for all.
 #include "shared/paraboloid_pieces.glsl"
 
+#include "omni/append_in_paraboloid.glsl"
 #include "shadow/light_triangle_fetch.glsl"
 
 layout(local_size_x = kBoundGroupSize) in;
 
-layout(scalar, binding = kBindBoundedTriangles) writeonly buffer Found { BoundedTriangle found[]; };
-layout(scalar, binding = kBindBoundedDraw) buffer DrawArguments { BoundedDraw draw; };
+layout(scalar, binding = kBindLargeTriangles) writeonly buffer LargeTriangles { LargeTriangle large[]; };
 
 layout(push_constant, scalar) uniform Push {
   int slice;
@@ -22,47 +21,23 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   if (gl_GlobalInvocationID.x >= triangleCount) return;
   uint index = firstTriangle + gl_GlobalInvocationID.x;
+  uint id = firstId + gl_GlobalInvocationID.x;
   LightTriangle triangle = fetchLightTriangle(index, instance);
   if (facing != 0 && float(facing) * triangle.volume >= 0.0f) return;
+  BoundBasis basis = boundBasis(shadowMap.width, slice, triangle);
+  if (!basis.seen) return;
+  QuadBound bound = boundAhead(basis);
   Piece whole;
   whole.a = triangle.a;
   whole.b = triangle.b;
   whole.c = triangle.c;
-  whole.uvA = whole.uvB = whole.uvC = vec2(0.0f, 0.0f);
-  vec3 inverseNormal = inversePlaneNormal(triangle);
-  Piece waiting[kMostWaiting];
-  int waitingCount = 0;
-  Piece piece = whole;
-  bool more = true;
-  while (more) {
-    QuadBound bound = paraboloidBound(shadowMap.width, slice, lightTriangle(piece.a, piece.b, piece.c));
-    bool seen = bound.p0 != bound.p1 || bound.p1 != bound.p2;
-    // What finds no room stays whole: its bound is wider, and nothing else.
-    if (seen && waitingCount < kMostWaiting && isWorthHalving(shadowMap.width, slice, piece, bound) &&
-        atomicAdd(draw.extraCount, 1u) < kMostExtraTriangles) {
-      PieceHalves halves = halvesOf(shadowMap.width, slice, piece, false);
-      waiting[waitingCount] = halves.second;
-      ++waitingCount;
-      piece = halves.first;
-      continue;
-    }
-    if (seen) {
-      BoundedTriangle result;
-      result.p0 = vec2(bound.p0.x, -bound.p0.y);
-      result.p1 = vec2(bound.p1.x, -bound.p1.y);
-      result.p2 = vec2(bound.p2.x, -bound.p2.y);
-      result.p3 = vec2(bound.p3.x, -bound.p3.y);
-      result.sideA = triangle.sideA;
-      result.sideB = triangle.sideB;
-      result.sideC = triangle.sideC;
-      result.inverseNormal = inverseNormal;
-      result.triangle = index;
-      result.instance = instance;
-      result.id = firstId + (index - firstTriangle);
-      // In any order: the nearest depth is the same.
-      found[atomicAdd(draw.vertexCount, 6u) / 6u] = result;
-    }
-    more = waitingCount > 0;
-    if (more) piece = waiting[--waitingCount];
+  if (basis.isAhead && !isWasteful(shadowMap.width, slice, whole, bound)) {
+    append(bound, triangle, inversePlaneNormal(triangle), index, instance, id);
+  } else {
+    uint i = atomicAdd(draw.largeCount, 1u);
+    large[i].triangle = index;
+    large[i].instance = instance;
+    large[i].id = id;
+    atomicMax(draw.largeGroups, i / uint(kBoundGroupSize) + 1u);
   }
 }

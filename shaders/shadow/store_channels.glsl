@@ -8,6 +8,7 @@
 
 #include "shared/channels.glsl"
 
+#include "shadow/drawn_fragment.glsl"
 #include "shadow/drawn_slice.glsl"
 
 layout(constant_id = 1) const int kPass = kPassNearest;
@@ -18,13 +19,6 @@ layout(binding = kBindMapDepth) uniform texture2DArray depthSlices;
 layout(location = 0) out float storedSecondDepth;
 layout(location = 1) out uint storedId;
 layout(location = 2) out uint storedSecondId;
-
-struct DrawnFragment {
-  float depth;     // as the map has it
-  uint triangle;   // in the array of all triangles
-  uint instance;
-  uint id;         // of both (shared/triangle_ids.glsl)
-};
 
 // In the peel what equals the first depth layer, up to a tolerance, is thrown away (Weiskopf & Ertl 2003, section 5).
 void storeChannels(DrawnFragment drawn) {

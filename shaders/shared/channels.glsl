@@ -29,6 +29,7 @@ const int kBindSecondIds = kBindFirstFree + 4;
 const int kPassNearest = 0;  // the depth test keeps the nearest of all
 const int kPassBlend = 1;    // the nearest behind the first depth layer: the depth test lets through, a blend keeps
 const int kPassPeel = 2;     // the same: the shader lets through, the depth test keeps
+const int kPassOrdered = 3;  // both layers: the shader keeps (shadow/store_in_order.glsl)
 
 // One look-up: a texel, the ray through its centre, and what its channels hold. A channel that the map lacks, or that
 // nobody asks for, is as in a texel in which nothing was drawn.

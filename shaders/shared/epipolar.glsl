@@ -47,6 +47,10 @@ struct EpipolarPoint {
   float phi;
 };
 
+GNOMON_FN float epipolarAlpha(float eyeDistance, vec3 posL) {
+  return atan2(sqrt(posL.x * posL.x + posL.y * posL.y), eyeDistance - posL.z);
+}
+
 GNOMON_FN EpipolarPoint epipolarFromLight(float eyeDistance, vec3 posL) {
   float aside = sqrt(posL.x * posL.x + posL.y * posL.y);
   EpipolarPoint point;

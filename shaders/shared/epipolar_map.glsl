@@ -36,6 +36,26 @@ GNOMON_FN float epipolarMapDepth(ShadowMap map, vec3 posL) {
   return epipolarFromLight(map.epipolar.eyeDistance, posL).alpha / alphaUpper(map.epipolar);
 }
 
+// What the map is drawn with: columns along theta, theta at the first one's side and at the last one's less that, the
+// eye's distance; the same of phi, and the upper alpha. By these the two below give the bits of those above.
+GNOMON_FN vec4 epipolarMapThetaNumbers(ShadowMap map) {
+  EpipolarGrid grid = map.epipolar;
+  return vec4(float(map.width), grid.thetaLower, float(grid.thetaCount) * grid.thetaStep, grid.eyeDistance);
+}
+
+GNOMON_FN vec4 epipolarMapPhiNumbers(ShadowMap map) {
+  EpipolarGrid grid = map.epipolar;
+  return vec4(float(map.height), grid.phiLower, float(grid.phiCount) * grid.phiStep, alphaUpper(grid));
+}
+
+GNOMON_FN vec3 epipolarMapDrawnRay(vec4 theta, vec4 phi, vec2 center) {
+  return epipolarDirection(theta.y + center.x / theta.x * theta.z, phi.y + center.y / phi.x * phi.z);
+}
+
+GNOMON_FN float epipolarMapDrawnDepth(vec4 theta, vec4 phi, vec3 posL) {
+  return epipolarAlpha(theta.w, posL) / phi.w;
+}
+
 GNOMON_FN float epipolarMapDepthSlope(ShadowMap map, vec3 posL, vec3 rayDir) {
   return epipolarAlphaSlope(map.epipolar.eyeDistance, rayDir, length(posL)) / alphaUpper(map.epipolar);
 }

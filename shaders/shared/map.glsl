@@ -172,6 +172,21 @@ GNOMON_FN float mapDistance(ShadowMap map, int slice, Ray ray, float depth) {
   return 0.0f;
 }
 
+// What a fragment shader of one kind of map needs of it while it is drawn (shadow/bounded_varyings.glsl), in an order
+// that its own functions know.
+GNOMON_FN vec4 mapDrawnNumbers(ShadowMap map) {
+  switch (mapKind(map)) {
+    case kMapParaboloid:
+      return paraboloidDrawnNumbers(map);
+    case kMapEpipolar:
+      return epipolarMapThetaNumbers(map);
+  }
+  return vec4(0.0f, 0.0f, 0.0f, 0.0f);
+}
+
+// And more of them.
+GNOMON_FN vec4 mapMoreDrawnNumbers(ShadowMap map) { return epipolarMapPhiNumbers(map); }
+
 GNOMON_FN vec2 mapTexelCounts(ShadowMap map) { return vec2(float(map.width), float(map.height)); }
 
 // The texel that holds uv; uv = 1 belongs to the last one.
@@ -187,7 +202,7 @@ GNOMON_FN vec2 mapTexelCenter(ShadowMap map, ivec2 texel) {
 // Whether a slice draws a texel of its rectangle, by the centre in texels, which the rasterizer has at hand: with the
 // texel's numbers instead, the exact drawing of a paraboloid took a sixteenth longer.
 GNOMON_FN bool mapHoldsTexelAt(ShadowMap map, vec2 center) {
-  return mapKind(map) != kMapParaboloid || paraboloidHoldsTexelAt(map, center);
+  return mapKind(map) != kMapParaboloid || paraboloidHoldsTexelAt(float(map.width), center);
 }
 
 // Whether a slice draws this texel: it lies on its rectangle, and where the slice is less than that, within it.

@@ -163,28 +163,49 @@ GNOMON_FN QuadBound rimBound(int slice, LightTriangle triangle, vec3 a, vec3 b, 
   return bound;
 }
 
-GNOMON_FN QuadBound paraboloidBound(int side, int slice, LightTriangle triangle) {
+// What both kinds of bounds begin with.
+struct BoundBasis {
+  vec3 a, b, c;  // corners in the slice's frame
+  float la, lb, lc;  // their lengths
+  float rim, margin;
+  bool seen;     // or else all corners lie beyond the rim, which is a convex cap: so does the triangle
+  bool isAhead;  // all corners are in the hemisphere
+};
+
+GNOMON_FN BoundBasis boundBasis(int side, int slice, LightTriangle triangle) {
+  BoundBasis basis;
   // Centres of texels that the rim touches lie at most half a diagonal, 0.71 texels, beyond it; a texel is 2 / side.
-  float rim = 1.0f + 1.5f / float(side);
+  basis.rim = 1.0f + 1.5f / float(side);
   // The rasterizer rounds corners to 1/256 of a texel, and the corners here are good to a few 1e-7; those of pieces
   // (paraboloid_pieces.glsl) to 2^-23 times the 32 that isWorthHalving allows, 4e-6.
-  float margin = 0.0625f / float(side) + 5e-6f;
-  vec3 a = sliceFromLight(slice, triangle.a);
-  vec3 b = sliceFromLight(slice, triangle.b);
-  vec3 c = sliceFromLight(slice, triangle.c);
-  float la = length(a);
-  float lb = length(b);
-  float lc = length(c);
-  // What lies beyond the rim is a convex cap: a triangle with its corners there stays there.
-  float rimW = (1.0f - rim * rim) / (1.0f + rim * rim);
-  if (a.z < rimW * la && b.z < rimW * lb && c.z < rimW * lc) return emptyBound();
-  if (a.z < 0.0f || b.z < 0.0f || c.z < 0.0f || la == 0.0f || lb == 0.0f || lc == 0.0f)
-    return rimBound(slice, triangle, a, b, c, rim, margin);
-  vec2 pa = vec2(a.x, a.y) * (1.0f / (la + a.z));
-  vec2 pb = vec2(b.x, b.y) * (1.0f / (lb + b.z));
-  vec2 pc = vec2(c.x, c.y) * (1.0f / (lc + c.z));
-  float bulge = max(arcBulge(a, b, pb - pa), max(arcBulge(b, c, pc - pb), arcBulge(c, a, pa - pc)));
-  return chordBound(pa, pb, pc, bulge + margin);
+  basis.margin = 0.0625f / float(side) + 5e-6f;
+  basis.a = sliceFromLight(slice, triangle.a);
+  basis.b = sliceFromLight(slice, triangle.b);
+  basis.c = sliceFromLight(slice, triangle.c);
+  basis.la = length(basis.a);
+  basis.lb = length(basis.b);
+  basis.lc = length(basis.c);
+  float rimW = (1.0f - basis.rim * basis.rim) / (1.0f + basis.rim * basis.rim);
+  basis.seen = !(basis.a.z < rimW * basis.la && basis.b.z < rimW * basis.lb && basis.c.z < rimW * basis.lc);
+  basis.isAhead = basis.a.z >= 0.0f && basis.b.z >= 0.0f && basis.c.z >= 0.0f && basis.la != 0.0f &&
+                  basis.lb != 0.0f && basis.lc != 0.0f;
+  return basis;
+}
+
+GNOMON_FN QuadBound boundAhead(BoundBasis basis) {
+  vec2 pa = vec2(basis.a.x, basis.a.y) * (1.0f / (basis.la + basis.a.z));
+  vec2 pb = vec2(basis.b.x, basis.b.y) * (1.0f / (basis.lb + basis.b.z));
+  vec2 pc = vec2(basis.c.x, basis.c.y) * (1.0f / (basis.lc + basis.c.z));
+  float bulge = max(arcBulge(basis.a, basis.b, pb - pa),
+                    max(arcBulge(basis.b, basis.c, pc - pb), arcBulge(basis.c, basis.a, pa - pc)));
+  return chordBound(pa, pb, pc, bulge + basis.margin);
+}
+
+GNOMON_FN QuadBound paraboloidBound(int side, int slice, LightTriangle triangle) {
+  BoundBasis basis = boundBasis(side, slice, triangle);
+  if (!basis.seen) return emptyBound();
+  if (!basis.isAhead) return rimBound(slice, triangle, basis.a, basis.b, basis.c, basis.rim, basis.margin);
+  return boundAhead(basis);
 }
 
 GNOMON_SHARED_END

@@ -52,6 +52,32 @@ GNOMON_FN Ray paraboloidTexelRay(ShadowMap map, int slice, vec2 uv) {
   return ray;
 }
 
+// side, 1 / side, zNear, zFar - zNear
+GNOMON_FN vec4 paraboloidDrawnNumbers(ShadowMap map) {
+  float side = float(map.width);
+  return vec4(side, 1.0f / side, map.zNear, map.zFar - map.zNear);
+}
+
+// The same ray where a texel is drawn, by its centre in texels. Not unit but of size 1 + x^2 + y^2, so that it meets a
+// plane with n.p = 1 at size / (n.dir) metres from the light: no root, and one division.
+struct ParaboloidDrawnRay {
+  vec3 dir;
+  float size;
+};
+
+GNOMON_FN ParaboloidDrawnRay paraboloidDrawnRay(vec4 numbers, int slice, vec2 center) {
+  float x = (2.0f * center.x - numbers.x) * numbers.y;
+  float y = (numbers.x - 2.0f * center.y) * numbers.y;
+  float square = x * x + y * y;
+  ParaboloidDrawnRay ray;
+  ray.dir = vec3(2.0f * x, 2.0f * y, paraboloidAxisZ(slice) * (1.0f - square));
+  ray.size = 1.0f + square;
+  return ray;
+}
+
+// `along`: metres from the light.
+GNOMON_FN float paraboloidDrawnDepth(vec4 numbers, float along) { return (along - numbers.z) / numbers.w; }
+
 GNOMON_FN float paraboloidDepth(ShadowMap map, vec3 posL) {
   return (length(posL) - map.zNear) / (map.zFar - map.zNear);
 }
@@ -63,8 +89,7 @@ GNOMON_FN float paraboloidDistance(ShadowMap map, float depth) { return depth * 
 // Whether the disc touches the texel around `center` (texels): the nearest point of its square lies within the rim. A
 // millionth is in hand for the rounding of paraboloidProject, so that every point it covers lies on a texel that is
 // drawn. Lengths in half texels from the slice's centre, without rounding.
-GNOMON_FN bool paraboloidHoldsTexelAt(ShadowMap map, vec2 center) {
-  float side = float(map.width);
+GNOMON_FN bool paraboloidHoldsTexelAt(float side, vec2 center) {
   float x = max(abs(2.0f * center.x - side) - 1.0f, 0.0f);
   float y = max(abs(2.0f * center.y - side) - 1.0f, 0.0f);
   return x * x + y * y <= side * side * 1.000001f;

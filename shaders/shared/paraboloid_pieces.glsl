@@ -159,8 +159,8 @@ GNOMON_FN float quadArea(vec2 p0, vec2 p1, vec2 p2, vec2 p3) {
   return 0.5f * abs(d.x * e.y - d.y * e.x);
 }
 
-// Whether two bounds of a piece's halves would enclose much less than the piece's own.
-GNOMON_FN bool isWorthHalving(int side, int slice, Piece piece, QuadBound bound) {
+// Whether a piece's bound encloses much more than the piece.
+GNOMON_FN bool isWasteful(int side, int slice, Piece piece, QuadBound bound) {
   float enclosed = quadArea(bound.p0, bound.p1, bound.p2, bound.p3);
   float wasted = enclosed;
   vec3 a = sliceFromLight(slice, piece.a);
@@ -174,7 +174,15 @@ GNOMON_FN bool isWorthHalving(int side, int slice, Piece piece, QuadBound bound)
     vec2 pa = vec2(a.x, a.y) * (1.0f / (la + a.z));
     wasted -= quadArea(pa, vec2(b.x, b.y) * (1.0f / (lb + b.z)), vec2(c.x, c.y) * (1.0f / (lc + c.z)), pa);
   }
-  if (wasted < kWastedShare * enclosed || wasted * 0.25f * float(side) * float(side) < kWastedTexels) return false;
+  return wasted >= kWastedShare * enclosed && wasted * 0.25f * float(side) * float(side) >= kWastedTexels;
+}
+
+// Whether two bounds of a piece's halves would enclose much less than the piece's own.
+GNOMON_FN bool isWorthHalving(int side, int slice, Piece piece, QuadBound bound) {
+  if (!isWasteful(side, slice, piece, bound)) return false;
+  vec3 a = sliceFromLight(slice, piece.a);
+  vec3 b = sliceFromLight(slice, piece.b);
+  vec3 c = sliceFromLight(slice, piece.c);
   Bends bends = pieceBends(side, slice, piece, false);
   float worst = worstBend(bends);
   // A quarter of a texel's bend is nothing to gain by.

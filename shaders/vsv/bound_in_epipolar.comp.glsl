@@ -1,14 +1,11 @@
 // The triangles that a shadow volume's columns show, one invocation each: a box around each in (theta, phi), and for
 // one over the seam of theta another, a turn lower.
-#include "shared/bounded_triangle.glsl"
 #include "shared/epipolar_bound.glsl"
 
+#include "shadow/append_bounded.glsl"
 #include "shadow/light_triangle_fetch.glsl"
 
 layout(local_size_x = kBoundGroupSize) in;
-
-layout(scalar, binding = kBindBoundedTriangles) writeonly buffer Found { BoundedTriangle found[]; };
-layout(scalar, binding = kBindBoundedDraw) buffer DrawArguments { BoundedDraw draw; };
 
 layout(push_constant, scalar) uniform Push {
   int slice;
@@ -22,12 +19,12 @@ layout(push_constant, scalar) uniform Push {
 // From columns to the slice's square.
 vec2 onSlice(float theta, float phi) { return vec2(theta, phi) / mapTexelCounts(shadowMap) * 2.0f - 1.0f; }
 
-void append(LightTriangle triangle, uint index, vec2 low, vec2 high) {
+void appendBox(LightTriangle triangle, uint index, vec2 low, vec2 high) {
   BoundedTriangle result;
-  result.p0 = onSlice(low.x, low.y);
-  result.p1 = onSlice(high.x, low.y);
-  result.p2 = onSlice(high.x, high.y);
-  result.p3 = onSlice(low.x, high.y);
+  result.corners[0] = onSlice(low.x, low.y);
+  result.corners[1] = onSlice(high.x, low.y);
+  result.corners[2] = onSlice(high.x, high.y);
+  result.corners[3] = onSlice(low.x, high.y);
   result.sideA = triangle.sideA;
   result.sideB = triangle.sideB;
   result.sideC = triangle.sideC;
@@ -35,8 +32,7 @@ void append(LightTriangle triangle, uint index, vec2 low, vec2 high) {
   result.triangle = index;
   result.instance = instance;
   result.id = firstId + (index - firstTriangle);
-  // In any order: the nearest depth is the same.
-  found[atomicAdd(draw.vertexCount, 6u) / 6u] = result;
+  append(result);
 }
 
 void main() {
@@ -54,11 +50,11 @@ void main() {
     float turn = 2.0f * kPi / grid.thetaStep;
     // Without room for a second box the first one goes all round.
     if (atomicAdd(draw.extraCount, 1u) < kMostExtraTriangles) {
-      append(triangle, index, vec2(low.x - turn, low.y), vec2(high.x - turn, high.y));
+      appendBox(triangle, index, vec2(low.x - turn, low.y), vec2(high.x - turn, high.y));
     } else {
       low.x = 0.0f;
       high.x = counts.x;
     }
   }
-  if (low.x <= counts.x) append(triangle, index, low, high);
+  if (low.x <= counts.x) appendBox(triangle, index, low, high);
 }

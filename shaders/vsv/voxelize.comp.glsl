@@ -24,11 +24,17 @@ void main() {
   int lowest = grid.alphaCount;   // no bit is set before
   int settled = 0;                // and none of the first bits after
   if (kStep == kVoxelizeFused) {
+    // The nearest and the farthest occluder that sets a bit, since a farther one sets none before.
+    float last = alphaCenter(grid, grid.alphaCount - 1);
+    float nearest = last;
+    float farthest = grid.alphaLower - 1.0f;
     for (int j = 0; j < bitCount; ++j) {
-      int i = firstOccluded(grid, occluders[column + j * grid.thetaCount]);
-      lowest = min(lowest, i);
-      if (i < grid.alphaCount) settled = max(settled, i + 1);
+      float alpha = occluders[column + j * grid.thetaCount];
+      nearest = min(nearest, alpha);
+      farthest = max(farthest, alpha < last ? alpha : farthest);
     }
+    lowest = firstOccluded(grid, nearest);
+    if (nearest < last) settled = firstOccluded(grid, farthest) + 1;
     uint end = first + uint(settled) * stride;
     for (uint at = first; at != end; at += stride) texels[at] = uvec4(0u);
   }

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "gpu/ordered_pass.h"
 
 #include <algorithm>
 #include <chrono>
@@ -41,6 +42,8 @@ const char* typeName(VkDescriptorType type) {
       return "texel buffer";
     case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
       return "storage image";
+    case VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT:
+      return "input attachment";
     default:
       return "texture";
   }
@@ -115,8 +118,9 @@ void recordProgram(const Device& device, VkCommandBuffer commands, const Program
       buffers[i] = {binding.buffer->handle(), 0, VK_WHOLE_SIZE};
       write.pBufferInfo = &buffers[i];
     } else {
-      GNOMON_CHECK(binding.image->view() != VK_NULL_HANDLE);
-      images[i] = {VK_NULL_HANDLE, binding.image->view(), VK_IMAGE_LAYOUT_GENERAL};
+      const VkImageView view = binding.layer ? binding.image->layerView(*binding.layer) : binding.image->view();
+      GNOMON_CHECK(view != VK_NULL_HANDLE);
+      images[i] = {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL};
       write.pImageInfo = &images[i];
     }
   }
@@ -243,9 +247,7 @@ void Commands::dispatchIndirect(const ComputeProgram& program, const Buffer& arg
   vkCmdDispatchIndirect(commands_, arguments.handle(), offset);
 }
 
-void Commands::beginRendering(const RenderTargets& targets) {
-  GNOMON_CHECK(!inRendering_);
-  const VkExtent2D extent = extentOf(targets);
+void Commands::beginDynamic(const RenderTargets& targets, VkExtent2D extent) {
   std::vector<VkRenderingAttachmentInfo> colors;
   for (const ColorTarget& color : targets.colors) {
     std::optional<VkClearValue> clear;
@@ -267,7 +269,62 @@ void Commands::beginRendering(const RenderTargets& targets) {
     info.pDepthAttachment = &depth;
   }
   vkCmdBeginRendering(commands_, &info);
+}
+
+void Commands::beginOrdered(const RenderTargets& targets, VkExtent2D extent) {
+  GNOMON_CHECK(device_.info().orderedAttachmentAccess);
+  GNOMON_CHECK_EQ(targets.viewMask, 0u);
+  OrderedPassDesc desc;
+  std::vector<VkImageView> views;
+  std::vector<VkClearValue> clears;
+  size_t cleared = 0;
+  const auto attach = [&](const Image& image, std::optional<VkClearValue> clear) {
+    views.push_back(targets.layer ? image.layerView(*targets.layer) : image.view());
+    clears.push_back(clear.value_or(VkClearValue{}));
+    cleared += clear ? 1 : 0;
+    return image.desc().format;
+  };
+  for (const ColorTarget& color : targets.colors) {
+    std::optional<VkClearValue> clear;
+    if (color.clear) clear = VkClearValue{.color = *color.clear};
+    desc.colors.push_back(color.image != nullptr ? attach(*color.image, clear) : VK_FORMAT_UNDEFINED);
+  }
+  if (targets.depth) {
+    std::optional<VkClearValue> clear;
+    if (targets.clearDepth) clear = VkClearValue{.depthStencil = {*targets.clearDepth, 0}};
+    desc.depth = attach(*targets.depth, clear);
+  }
+  GNOMON_CHECK(cleared == 0 || cleared == views.size());
+  desc.clear = cleared > 0;
+  orderedPasses_.push_back(createOrderedPass(device_, desc));
+  VkFramebufferCreateInfo framebufferInfo{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
+  framebufferInfo.renderPass = orderedPasses_.back().get();
+  framebufferInfo.attachmentCount = static_cast<uint32_t>(views.size());
+  framebufferInfo.pAttachments = views.data();
+  framebufferInfo.width = extent.width;
+  framebufferInfo.height = extent.height;
+  framebufferInfo.layers = 1;
+  VkFramebuffer framebuffer = VK_NULL_HANDLE;
+  GNOMON_VK_CHECK(vkCreateFramebuffer(device_.handle(), &framebufferInfo, nullptr, &framebuffer));
+  framebuffers_.emplace_back(device_.handle(), framebuffer);
+  VkRenderPassBeginInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
+  info.renderPass = framebufferInfo.renderPass;
+  info.framebuffer = framebuffer;
+  info.renderArea.extent = extent;
+  info.clearValueCount = static_cast<uint32_t>(clears.size());
+  info.pClearValues = clears.data();
+  vkCmdBeginRenderPass(commands_, &info, VK_SUBPASS_CONTENTS_INLINE);
+}
+
+void Commands::beginRendering(const RenderTargets& targets) {
+  GNOMON_CHECK(!inRendering_);
+  const VkExtent2D extent = extentOf(targets);
+  if (targets.ordered)
+    beginOrdered(targets, extent);
+  else
+    beginDynamic(targets, extent);
   inRendering_ = true;
+  inOrderedPass_ = targets.ordered;
 
   const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
                             0.0f, 1.0f};
@@ -323,7 +380,10 @@ void Commands::drawIndirect(const Buffer& arguments) {
 
 void Commands::endRendering() {
   GNOMON_CHECK(inRendering_);
-  vkCmdEndRendering(commands_);
+  if (inOrderedPass_)
+    vkCmdEndRenderPass(commands_);
+  else
+    vkCmdEndRendering(commands_);
   inRendering_ = false;
 }
 

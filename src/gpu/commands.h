@@ -13,13 +13,15 @@
 
 namespace gnomon::gpu {
 
-// A resource for one binding of a program: a storage buffer, a storage image, or a sampled image (texelFetch).
+// A resource for one binding of a program: a storage buffer, a storage image, a sampled image (texelFetch), or one
+// layer of an image as an input attachment.
 struct Binding {
   uint32_t index;
   const Buffer* buffer = nullptr;
   const Image* image = nullptr;
+  std::optional<uint32_t> layer;
   Binding(uint32_t i, const Buffer& b) : index(i), buffer(&b) {}
-  Binding(uint32_t i, const Image& im) : index(i), image(&im) {}
+  Binding(uint32_t i, const Image& im, std::optional<uint32_t> l = {}) : index(i), image(&im), layer(l) {}
 };
 
 struct ColorTarget {
@@ -36,6 +38,9 @@ struct RenderTargets {
   // view volume clips all land in layer 0, and views from the third on are lost. One pass a layer is right on
   // every device, and faster on lavapipe.
   uint32_t viewMask = 0;
+  // Fragments read the colours that were there before them (GraphicsDesc::ordered). One layer, all targets cleared or
+  // all kept.
+  bool ordered = false;
 };
 
 struct StageTime {
@@ -87,7 +92,7 @@ class Commands {
 
   void fill(const Buffer& buffer, uint32_t word);
   void copy(const Buffer& from, const Buffer& to, VkDeviceSize size);
-  void copy(const Image& from, const Buffer& to);  // all layers, tightly packed
+  void copy(const Image& from, const Buffer& to);  // all layers and components, tightly packed
   void copy(const Buffer& from, const Image& to, VkDeviceSize fromOffset);
 
   VkCommandBuffer handle() const { return commands_; }
@@ -96,16 +101,22 @@ class Commands {
   Submission submitAndWait();
 
  private:
+  void beginDynamic(const RenderTargets& targets, VkExtent2D extent);
+  void beginOrdered(const RenderTargets& targets, VkExtent2D extent);
   std::vector<StageTime> readStages() const;
 
   const Device& device_;
   OwnedChild<VkCommandPool, vkDestroyCommandPool> pool_;
   OwnedChild<VkQueryPool, vkDestroyQueryPool> queries_;
   OwnedChild<VkFence, vkDestroyFence> fence_;
+  // Of RenderTargets::ordered, until the device is done with them.
+  std::vector<OwnedChild<VkRenderPass, vkDestroyRenderPass>> orderedPasses_;
+  std::vector<OwnedChild<VkFramebuffer, vkDestroyFramebuffer>> framebuffers_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   std::vector<std::string> stageNames_;
   bool inStage_ = false;
   bool inRendering_ = false;
+  bool inOrderedPass_ = false;
   bool submitted_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "gpu/ordered_pass.h"
 
 #include <algorithm>
 
@@ -156,6 +157,7 @@ VkPipeline createGraphicsPipeline(const Device& device, const GraphicsDesc& desc
   VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
   blend.attachmentCount = static_cast<uint32_t>(targets.size());
   blend.pAttachments = targets.data();
+  if (desc.ordered) blend.flags = VK_PIPELINE_COLOR_BLEND_STATE_CREATE_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_BIT_EXT;
   const VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
                                           VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
   VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
@@ -167,7 +169,13 @@ VkPipeline createGraphicsPipeline(const Device& device, const GraphicsDesc& desc
   rendering.pColorAttachmentFormats = desc.colorFormats.data();
   rendering.depthAttachmentFormat = desc.depthFormat;
 
-  VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
+  const auto pass =
+      desc.ordered ? createOrderedPass(device, {.colors = desc.colorFormats, .depth = desc.depthFormat, .clear = true})
+                   : OwnedChild<VkRenderPass, vkDestroyRenderPass>();
+
+  VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                    desc.ordered ? nullptr : &rendering};
+  info.renderPass = pass.get();
   info.stageCount = static_cast<uint32_t>(stages.size());
   info.pStages = stages.data();
   info.pVertexInputState = &vertexInput;

@@ -92,8 +92,11 @@ struct GraphicsDesc {
   VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
   bool depthWrite = true;
   bool depthClamp = false;
-  uint32_t viewMask = 0;                    // multiview
-  bool minBlend = false;                    // colour attachments keep the minimum
+  uint32_t viewMask = 0;  // multiview
+  bool minBlend = false;  // colour attachments keep the minimum
+  // Fragments read the colour attachments as input attachments, in the order of the triangles: for
+  // RenderTargets::ordered. Needs DeviceInfo::orderedAttachmentAccess.
+  bool ordered = false;
   std::vector<VertexStream> vertexStreams;  // none: the vertex shader pulls them from storage buffers
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
 };

@@ -153,11 +153,13 @@ void checkLimits(const Device& device, const ImageDesc& desc) {
 }
 
 OwnedChild<VkImageView, vkDestroyImageView> createView(const Device& device, VkImage image, const ImageDesc& desc,
-                                                       VkImageViewType type, VkImageSubresourceRange range) {
+                                                       VkImageViewType type, VkImageSubresourceRange range,
+                                                       VkComponentMapping components = {}) {
   VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   info.image = image;
   info.viewType = type;
   info.format = desc.format;
+  info.components = components;
   info.subresourceRange = range;
   VkImageView view = VK_NULL_HANDLE;
   GNOMON_VK_CHECK(vkCreateImageView(device.handle(), &info, nullptr, &view));
@@ -255,6 +257,17 @@ Image::Image(const Device& device, const ImageDesc& desc) : desc_(desc) {
   bringToGeneral(device, *this);
 }
 
+Image::Image(const Device& device, const char* name, const Image& of, VkFormat format, int component)
+    : component_({.of = of.handle(), .format = of.desc().format, .index = component}), desc_(of.desc()) {
+  GNOMON_CHECK(!of.component());
+  GNOMON_CHECK(component >= 0 && component < static_cast<int>(texelBytes(of.desc().format) / texelBytes(format)));
+  const VkImageViewType type = desc_.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+  desc_.name = name;
+  const auto from = static_cast<VkComponentSwizzle>(VK_COMPONENT_SWIZZLE_R + component);
+  view_ = createView(device, handle(), desc_, type, {aspect(), 0, 1, 0, desc_.layerCount}, {from, {}, {}, {}});
+  desc_.format = format;
+}
+
 VkImageAspectFlags Image::aspect() const {
   const bool depth = desc_.format == VK_FORMAT_D32_SFLOAT || desc_.format == VK_FORMAT_D16_UNORM;
   return depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
@@ -302,13 +315,20 @@ std::vector<std::byte> download(const Device& device, const Buffer& buffer, VkDe
 }
 
 std::vector<std::byte> download(const Device& device, const Image& image) {
+  const VkDeviceSize texel = texelBytes(image.desc().format);
+  GNOMON_CHECK(texel > 0);  // it knows the format
   const VkDeviceSize size = packedBytes(image.desc());
-  GNOMON_CHECK(size > 0);  // texelBytes knows the format
-  const Buffer staging(device, {.name = "staging for download", .size = size, .usage = 0, .memory = Memory::Readback});
+  const VkDeviceSize stride = image.component() ? texelBytes(image.component()->format) : texel;
+  const Buffer staging(
+      device, {.name = "staging for download", .size = size / texel * stride, .usage = 0, .memory = Memory::Readback});
   Commands commands(device, "download image");
   commands.copy(image, staging);
   commands.submitAndWait();
-  return {staging.mapped(), staging.mapped() + size};
+  if (!image.component()) return {staging.mapped(), staging.mapped() + size};
+  std::vector<std::byte> bytes(size);
+  const std::byte* from = staging.mapped() + static_cast<size_t>(image.component()->index) * texel;
+  for (size_t at = 0; at < size; at += texel, from += stride) std::memcpy(bytes.data() + at, from, texel);
+  return bytes;
 }
 
 }  // namespace gnomon::gpu

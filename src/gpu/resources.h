@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -59,13 +60,24 @@ class Image {
   Image() = default;
   // Brings the image to GENERAL before it returns.
   Image(const Device& device, const ImageDesc& desc);
-  VkImage handle() const { return image_.get(); }
+  // One component of all layers of another image, which must stay: shaders that sample it find it in x, and a download
+  // gives nothing else. `format`: of the component.
+  Image(const Device& device, const char* name, const Image& of, VkFormat format, int component);
+  VkImage handle() const { return component_ ? component_->of : image_.get(); }
   VkImageView view() const { return view_.get(); }                                  // all layers
   VkImageView layerView(uint32_t layer) const { return layerViews_[layer].get(); }  // one layer, 2D
   const ImageDesc& desc() const { return desc_; }
   VkImageAspectFlags aspect() const;
 
+  struct Component {
+    VkImage of = VK_NULL_HANDLE;
+    VkFormat format = VK_FORMAT_UNDEFINED;  // of the other image
+    int index = 0;
+  };
+  const std::optional<Component>& component() const { return component_; }
+
  private:
+  std::optional<Component> component_;
   OwnedChild<VkImage, vkDestroyImage> image_;
   OwnedChild<VkDeviceMemory, vkFreeMemory> memory_;
   OwnedChild<VkImageView, vkDestroyImageView> view_;

@@ -46,35 +46,48 @@ const gpu::ComputeProgram& BoundedDraws::program(const std::string& shader) {
   return programs_.back()->program;
 }
 
+void BoundedDraws::makeRoom() {
+  if (triangles_.handle() != VK_NULL_HANDLE) return;
+  const VkDeviceSize most = kBatchTriangles + glsl::kMostExtraTriangles;
+  triangles_ = gpu::Buffer(device_, {.name = "bounded triangles", .size = most * sizeof(glsl::BoundedTriangle)});
+  large_ = gpu::Buffer(device_, {.name = "large triangles", .size = kBatchTriangles * sizeof(glsl::LargeTriangle)});
+  arguments_ =
+      gpu::Buffer(device_, {.name = "bounded draw",
+                            .size = sizeof(glsl::BoundedDraw) + 2 * most * sizeof(uint32_t),
+                            .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
+  noArguments_ = gpu::createBufferWith(device_, "no bounded draw",
+                                       std::vector<glsl::BoundedDraw>{{.instanceCount = 1, .one = 1, .oneMore = 1}});
+}
+
 void BoundedDraws::record(gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& mapUniforms,
-                          const std::string& shader, int slice, const Batch& batch) {
-  if (triangles_.handle() == VK_NULL_HANDLE) {
-    triangles_ =
-        gpu::Buffer(device_, {.name = "bounded triangles",
-                              .size = (kBatchTriangles + glsl::kMostExtraTriangles) * sizeof(glsl::BoundedTriangle)});
-    arguments_ =
-        gpu::Buffer(device_, {.name = "bounded draw",
-                              .size = sizeof(glsl::BoundedDraw),
-                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
-    noArguments_ =
-        gpu::createBufferWith(device_, "no bounded draw", std::vector<glsl::BoundedDraw>{{.instanceCount = 1}});
-  }
-  commands.copy(noArguments_, arguments_, sizeof(glsl::BoundedDraw));
-  commands.barrier("the count is zero -> triangles are counted");
-  for (const Piece& piece : batch) {
-    const BoundPush push{slice, piece.facing, piece.firstTriangle, piece.triangleCount, piece.instance, piece.firstId};
-    const uint32_t groups = (piece.triangleCount + glsl::kBoundGroupSize - 1) / glsl::kBoundGroupSize;
+                          const SliceShaders& shaders, int slice, const Batch& batch) {
+  makeRoom();
+  const auto bindingsOf = [&](const gpu::ComputeProgram& found) {
     std::vector<gpu::Binding> bindings = {
         {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},
         {glsl::kBindInstances, scene.instances}, {glsl::kBindUvs, scene.uvs},
         {glsl::kBindMap, mapUniforms},           {glsl::kBindBoundedTriangles, triangles_},
-        {glsl::kBindBoundedDraw, arguments_}};
-    const gpu::ComputeProgram& found = program(shader);
+        {glsl::kBindBoundedDraw, arguments_},    {glsl::kBindLargeTriangles, large_}};
     std::erase_if(bindings, [&](const gpu::Binding& binding) {
       return std::ranges::none_of(found.interface().bindings,
                                   [&](const auto& declared) { return declared.index == binding.index; });
     });
-    commands.dispatch(found, {groups, 1, 1}, gpu::asPush(push), bindings);
+    return bindings;
+  };
+  commands.copy(noArguments_, arguments_, sizeof(glsl::BoundedDraw));
+  commands.barrier("the count is zero -> triangles are counted");
+  const gpu::ComputeProgram& bounds = program(shaders.bounds);
+  for (const Piece& piece : batch) {
+    const BoundPush push{slice, piece.facing, piece.firstTriangle, piece.triangleCount, piece.instance, piece.firstId};
+    const uint32_t groups = (piece.triangleCount + glsl::kBoundGroupSize - 1) / glsl::kBoundGroupSize;
+    commands.dispatch(bounds, {groups, 1, 1}, gpu::asPush(push), bindingsOf(bounds));
+  }
+  if (*shaders.largeBounds != '\0') {
+    commands.barrier("large triangles are listed and counted -> they are bounded");
+    const gpu::ComputeProgram& large = program(shaders.largeBounds);
+    const int32_t push = slice;
+    commands.dispatchIndirect(large, arguments_, offsetof(glsl::BoundedDraw, largeGroups), gpu::asPush(push),
+                              bindingsOf(large));
   }
   commands.barrier("triangles and their count are written -> the draw reads them");
 }

@@ -4,6 +4,7 @@
 // Triangles go in batches, so that a scene of any size takes the same memory.
 
 #include "scene/scene_buffers.h"
+#include "shadow/slice_shaders.h"
 
 #include "shared/bounded_triangle.glsl"
 
@@ -26,12 +27,12 @@ class BoundedDraws {
     int facing = 0;        // 1: only what winds counter-clockwise seen from the light, -1: only the rest, 0: both
   };
   using Batch = std::vector<Piece>;
-  static constexpr uint32_t kBatchTriangles = 1u << 18;  // 46 MiB with what they may be cut into
+  static constexpr uint32_t kBatchTriangles = 1u << 18;  // 53 MiB with what they may be cut into
   static std::vector<Batch> batches(const std::vector<Piece>& pieces);
 
   // Makes the list of one batch for a slice; a draw may read it after.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& mapUniforms,
-              const std::string& shader, int slice, const Batch& batch);
+              const SliceShaders& shaders, int slice, const Batch& batch);
 
   const gpu::Buffer& triangles() const { return triangles_; }
   const gpu::Buffer& arguments() const { return arguments_; }
@@ -42,9 +43,10 @@ class BoundedDraws {
     gpu::ComputeProgram program;
   };
   const gpu::ComputeProgram& program(const std::string& shader);
+  void makeRoom();
 
   const gpu::Device& device_;
-  gpu::Buffer triangles_, arguments_, noArguments_;  // made at the first use
+  gpu::Buffer triangles_, large_, arguments_, noArguments_;  // made at the first use
   std::vector<std::unique_ptr<Entry>> programs_;
 };
 

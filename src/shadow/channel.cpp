@@ -79,6 +79,7 @@ bool blends(ChannelSet set) {
 }
 
 ChannelSet writtenBy(ChannelPass pass, ChannelSet set) {
+  if (pass == ChannelPass::Both) return writtenBy(ChannelPass::Nearest, set) | writtenBy(ChannelPass::Second, set);
   ChannelSet written = 0;
   for (const Channel& channel : channels())
     if (channel.pass == pass) written |= set & channel.bit;

@@ -19,6 +19,7 @@ using ChannelSet = int;  // kChannel* bits
 enum class ChannelPass {
   Nearest,    // the nearest of all fragments
   Second,     // the nearest of those behind the first depth layer
+  Both,       // the channels of these two at once (SecondLayer::Ordered)
   BackFaces,  // the nearest back face of solids; sheets as they are
 };
 

@@ -25,6 +25,17 @@ gpu::ImageDesc slicesDesc(const char* name, VkFormat format, VkImageUsageFlags u
           .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT};
 }
 
+bool hasTwoLayers(ChannelSet channels) {
+  return (channels & glsl::kChannelSecondDepth) != 0;
+}
+
+SecondLayer chosenSecondLayer(const gpu::Device& device, ChannelSet channels, std::optional<SecondLayer> wanted) {
+  if (wanted == SecondLayer::Ordered) GNOMON_CHECK(device.info().orderedAttachmentAccess);
+  const SecondLayer fastest = device.info().orderedAttachmentAccess ? SecondLayer::Ordered : SecondLayer::Blend;
+  const SecondLayer chosen = wanted.value_or(fastest);
+  return chosen == SecondLayer::Blend && !blends(channels) ? SecondLayer::Peel : chosen;
+}
+
 bool holdsLight(const Draw& draw, const LightModel& light) {
   if (light.type == LightType::Directional) return false;
   const glm::vec3 position(light.positionW);
@@ -34,7 +45,7 @@ bool holdsLight(const Draw& draw, const LightModel& light) {
 
 // What a program reads of the scene and the map.
 std::vector<gpu::Binding> bindingsOf(const gpu::GraphicsProgram& program, const SceneBuffers& scene,
-                                     const MapImage& map, const BoundedDraws& bounded) {
+                                     const MapImage& map, const BoundedDraws& bounded, int slice) {
   std::vector<gpu::Binding> bindings;
   for (const gpu::ProgramInterface::Binding& wanted : program.interface().bindings) {
     switch (wanted.index) {
@@ -63,10 +74,17 @@ std::vector<gpu::Binding> bindingsOf(const gpu::GraphicsProgram& program, const 
         bindings.emplace_back(wanted.index, map.uniforms());
         break;
       case glsl::kBindMapDepth:
-        bindings.emplace_back(wanted.index, map.imageOrAny(glsl::kChannelDepth));
+      case glsl::kBindIds:
+        if (wanted.type == VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT)
+          bindings.emplace_back(wanted.index, map.inOrder(wanted.index), static_cast<uint32_t>(slice));
+        else
+          bindings.emplace_back(wanted.index, map.imageOrAny(glsl::kChannelDepth));
         break;
       case glsl::kBindBoundedTriangles:
         bindings.emplace_back(wanted.index, bounded.triangles());
+        break;
+      case glsl::kBindBoundedDraw:
+        bindings.emplace_back(wanted.index, bounded.arguments());
         break;
       default:
         break;  // bind() says what is missing
@@ -77,14 +95,48 @@ std::vector<gpu::Binding> bindingsOf(const gpu::GraphicsProgram& program, const 
 
 }  // namespace
 
-MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, ChannelSet wanted)
-    : Occluders(device, fitted, "map uniforms"), channels_(completed(wanted)) {
+MapImage::MapImage(const gpu::Device& device, const FittedMap& fitted, ChannelSet wanted,
+                   std::optional<SecondLayer> second)
+    : Occluders(device, fitted, "map uniforms"),
+      channels_(completed(wanted)),
+      second_(chosenSecondLayer(device, channels_, second)) {
+  ChannelSet alone = channels_;
+  if (drawsInOrder()) {
+    alone &= ~writtenBy(ChannelPass::Both, channels_);
+    const auto draw = [&](gpu::Image& pair, const char* name, VkFormat format) {
+      pair = gpu::Image(
+          device, slicesDesc(name, format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT,
+                             fitted.map));
+    };
+    const auto show = [&](ChannelSet channel, const gpu::Image& pair, VkFormat format, int component) {
+      if ((channels_ & channel) == 0) return;
+      const auto found = std::ranges::find(gnomon::channels(), channel, &Channel::bit);
+      images_.emplace_back(channel, gpu::Image(device, found->name, pair, format, component));
+    };
+    draw(depthsInOrder_, "two depths", VK_FORMAT_R32G32_SFLOAT);
+    show(glsl::kChannelDepth, depthsInOrder_, VK_FORMAT_R32_SFLOAT, 0);
+    show(glsl::kChannelSecondDepth, depthsInOrder_, VK_FORMAT_R32_SFLOAT, 1);
+    const bool secondIds = (channels_ & glsl::kChannelSecondIds) != 0;
+    if (secondIds || (channels_ & glsl::kChannelIds) != 0)
+      draw(idsInOrder_, "ids of two depths", VK_FORMAT_R32G32_UINT);
+    show(glsl::kChannelIds, idsInOrder_, VK_FORMAT_R32_UINT, 0);
+    show(glsl::kChannelSecondIds, idsInOrder_, VK_FORMAT_R32_UINT, 1);
+  }
   for (const Channel& channel : gnomon::channels()) {
-    if ((channels_ & channel.bit) == 0) continue;
+    if ((alone & channel.bit) == 0) continue;
     const VkImageUsageFlags usage = channel.location == kDepthBuffer ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                                                      : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     images_.emplace_back(channel.bit, gpu::Image(device, slicesDesc(channel.name, channel.format, usage, fitted.map)));
   }
+}
+
+const gpu::Image& MapImage::inOrder(uint32_t binding) const {
+  const bool ids = binding == glsl::kBindIds && idsInOrder_.handle() != VK_NULL_HANDLE;
+  return ids ? idsInOrder_ : depthsInOrder_;
+}
+
+bool MapImage::drawsInOrder() const {
+  return hasTwoLayers(channels_) && second_ == SecondLayer::Ordered;
 }
 
 const gpu::Image& MapImage::image(ChannelSet channel) const {
@@ -147,18 +199,25 @@ MapRenderer::Key MapRenderer::keyOf(const Slice& slice, bool masked) const {
 const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
   for (const auto& entry : programs_)
     if (entry->key == key) return entry->program;
-  gpu::GraphicsDesc desc{.name = key.pass == glsl::kPassNearest ? "draw depth" : "draw second depth",
+  // Stands for shadow/store_channels.glsl.
+  static const std::map<std::string, std::string> kStoreInOrder = {
+      {"shadow/store_channels.glsl", "#include \"shadow/store_in_order.glsl\"\n"}};
+  gpu::GraphicsDesc desc{.name = key.ordered()                    ? "draw two depths"
+                                 : key.pass == glsl::kPassNearest ? "draw depth"
+                                                                  : "draw second depth",
                          .vertex = {key.shaders.vertex, {}},
-                         .fragment = {key.needsFragments() ? key.shaders.fragment : "", {}},
+                         .fragment = {.path = key.needsFragments() ? key.shaders.fragment : "",
+                                      .overrides = key.ordered() ? kStoreInOrder : decltype(kStoreInOrder){}},
                          .specializations = {{.id = 0, .value = key.masked ? 1 : 0},
                                              {.id = 1, .value = key.pass},
                                              {.id = 2, .value = key.mapKind},
                                              {.id = 3, .value = key.viewMask != 0 ? 1 : 0},
                                              {.id = 4, .value = key.stored}},
                          .colorFormats = key.colorFormats,
-                         .depthFormat = VK_FORMAT_D32_SFLOAT,
+                         .depthFormat = key.ordered() ? VK_FORMAT_UNDEFINED : VK_FORMAT_D32_SFLOAT,
                          .depthCompare = VK_COMPARE_OP_LESS,
-                         .viewMask = key.viewMask};
+                         .viewMask = key.viewMask,
+                         .ordered = key.ordered()};
   if (key.pass == glsl::kPassBlend) {
     desc.depthCompare = VK_COMPARE_OP_GREATER;
     desc.depthWrite = false;
@@ -191,7 +250,7 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
       const Key key = keyOf(slice, masked);
       const gpu::GraphicsProgram& drawn = program(key);
       const auto pushed = [&] { return gpu::asPush(push).first(drawn.interface().pushConstantBytes); };
-      commands.bind(drawn, pushed(), bindingsOf(drawn, scene, slice.map, bounded_));
+      commands.bind(drawn, pushed(), bindingsOf(drawn, scene, slice.map, bounded_, slice.index));
       const bool clockwise = (group == Group::MirroredSolids) != mirrors;
       commands.setCulling(group == Group::Sheets ? VK_CULL_MODE_NONE
                           : backFaces            ? VK_CULL_MODE_FRONT_BIT
@@ -234,11 +293,11 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
                           .facing = backFaces ? -front : front});
     }
     for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
-      bounded_.record(commands, scene, slice.map.uniforms(), shaders.bounds, slice.index, batch);
+      bounded_.record(commands, scene, slice.map.uniforms(), shaders, slice.index, batch);
       commands.beginRendering(targets);
       const gpu::GraphicsProgram& drawn = program(keyOf(slice, masked));
       commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
-                    bindingsOf(drawn, scene, slice.map, bounded_));
+                    bindingsOf(drawn, scene, slice.map, bounded_, slice.index));
       commands.drawIndirect(bounded_.arguments());
       commands.endRendering();
       cleared = true;
@@ -259,7 +318,7 @@ bool MapRenderer::takesMultiview(const MapImage& map) const {
   if (found == multiviewChecks_.end()) {
     const auto draw = [this](const SceneBuffers& scene, MapImage& tried, bool multiview) {
       gpu::Commands commands(device_, "multiview check");
-      recordSlices(commands, scene, tried, {}, CullMode::None, SecondLayer::Blend, multiview);
+      recordSlices(commands, scene, tried, {}, CullMode::None, multiview);
       return commands.submitAndWait().wallMs;
     };
     found = multiviewChecks_.insert(found, {shaders, checkMultiview(device_, map.fitted(), draw)});
@@ -274,12 +333,19 @@ bool MapRenderer::takesMultiview(const MapImage& map) const {
 }
 
 void MapRenderer::record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
-                         CullMode cull, SecondLayer method) const {
-  recordSlices(commands, scene, map, light, cull, method, takesMultiview(map));
+                         CullMode cull) const {
+  recordSlices(commands, scene, map, light, cull, takesMultiview(map) && !map.drawsInOrder());
 }
 
-gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass, SecondLayer method) const {
+gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass) const {
   gpu::RenderTargets targets;
+  if (pass == ChannelPass::Both) {
+    targets.ordered = true;
+    targets.colors.push_back({.image = &map.depthsInOrder_, .clear = {{.float32 = {1.0f, 1.0f, 0.0f, 0.0f}}}});
+    if (map.idsInOrder_.handle() != VK_NULL_HANDLE)
+      targets.colors.push_back({.image = &map.idsInOrder_, .clear = {{.uint32 = {0, 0, 0, 0}}}});
+    return targets;
+  }
   for (const Channel& channel : channels()) {
     if ((writtenBy(pass, map.channels()) & channel.bit) == 0) continue;
     if (channel.location == kDepthBuffer) {
@@ -291,7 +357,7 @@ gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass, Secon
     targets.colors[channel.location] = {.image = &map.image(channel.bit), .clear = channel.clear};
   }
   if (pass != ChannelPass::Second) return targets;
-  if (method == SecondLayer::Blend) {
+  if (map.second_ == SecondLayer::Blend) {
     targets.depth = &map.depth();  // tested against, and kept
     return targets;
   }
@@ -304,19 +370,19 @@ gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass, Secon
 }
 
 void MapRenderer::recordSlices(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
-                               const LightModel& light, CullMode cull, SecondLayer method, bool multiview) const {
+                               const LightModel& light, CullMode cull, bool multiview) const {
   const int count = multiview ? map.sliceCount() : 1;
-  if (!blends(map.channels())) method = SecondLayer::Peel;
   const auto recordPass = [&](int first, ChannelPass pass) {
     const bool backFaces = pass == ChannelPass::BackFaces;
     const Grouping groupOf = [&](const Draw& draw) {
       const bool culled = (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
       return !culled ? Group::Sheets : draw.mirrored ? Group::MirroredSolids : Group::Solids;
     };
-    const int shaderPass = pass != ChannelPass::Second    ? glsl::kPassNearest
-                           : method == SecondLayer::Blend ? glsl::kPassBlend
-                                                          : glsl::kPassPeel;
-    Slice slice{map, first, count, pass, shaderPass, targetsOf(map, pass, method)};
+    const int shaderPass = pass == ChannelPass::Both           ? glsl::kPassOrdered
+                           : pass != ChannelPass::Second       ? glsl::kPassNearest
+                           : map.second_ == SecondLayer::Blend ? glsl::kPassBlend
+                                                               : glsl::kPassPeel;
+    Slice slice{map, first, count, pass, shaderPass, targetsOf(map, pass)};
     if (multiview)
       slice.targets.viewMask = (1u << count) - 1u;
     else
@@ -328,8 +394,12 @@ void MapRenderer::recordSlices(gpu::Commands& commands, const SceneBuffers& scen
   };
   const auto writes = [&](ChannelPass pass) { return writtenBy(pass, map.channels()) != 0; };
   for (int first = 0; first < map.sliceCount(); first += count) {
-    if (writes(ChannelPass::Nearest)) recordPass(first, ChannelPass::Nearest);
-    if (writes(ChannelPass::Second)) {
+    if (map.drawsInOrder()) {
+      recordPass(first, ChannelPass::Both);
+    } else if (writes(ChannelPass::Nearest)) {
+      recordPass(first, ChannelPass::Nearest);
+    }
+    if (writes(ChannelPass::Second) && !map.drawsInOrder()) {
       commands.barrier("the first layer's depth is written -> the second layer tests against it");
       recordPass(first, ChannelPass::Second);
     }

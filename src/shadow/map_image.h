@@ -13,8 +13,11 @@
 
 namespace gnomon {
 
-// How the second depth layer is found. Both give the same bits where the peel's tolerance is 0.
+// How the second depth layer is found. All give the same bits where the peel's tolerance is 0.
 enum class SecondLayer {
+  // Both layers in one pass, as colours that a fragment reads, updates and writes in the order of the triangles. For
+  // devices with DeviceInfo::orderedAttachmentAccess.
+  Ordered,
   // Depth test "greater than the first layer" against its own depth buffer, MIN blending into a float target: no
   // texture is read, and every fragment before the first layer dies in the early depth test.
   Blend,
@@ -25,8 +28,10 @@ enum class SecondLayer {
 
 class MapImage final : public Occluders {
  public:
-  // A map of these channels and what they need. Throws WorldError where the device cannot hold it.
-  MapImage(const gpu::Device& device, const FittedMap& fitted, ChannelSet channels = glsl::kChannelDepth);
+  // A map of these channels and what they need. Throws WorldError where the device cannot hold it. Of two layers, drawn
+  // as `second` has it; absent: the fastest way that the device knows.
+  MapImage(const gpu::Device& device, const FittedMap& fitted, ChannelSet channels = glsl::kChannelDepth,
+           std::optional<SecondLayer> second = {});
 
   void recordDrawing(gpu::Commands& commands, const MapRenderer& renderer, const SceneBuffers& scene,
                      const LightModel& light, CullMode cull) override;
@@ -41,6 +46,9 @@ class MapImage final : public Occluders {
   std::vector<uint32_t> downloadIds(const gpu::Device& device) const override;
 
   ChannelSet channels() const { return channels_; }
+  bool drawsInOrder() const;  // has two layers, drawn as SecondLayer::Ordered
+  // What fragments read that are drawn so, at this binding; any image where nothing is read there.
+  const gpu::Image& inOrder(uint32_t binding) const;
   // Of one channel, which the map must have; sliceCount slices.
   const gpu::Image& image(ChannelSet channel) const;
   // The same, or where the map lacks it another: for shaders that declare more than they read.
@@ -50,8 +58,10 @@ class MapImage final : public Occluders {
  private:
   friend class MapRenderer;
   ChannelSet channels_;
+  SecondLayer second_;
   std::vector<std::pair<ChannelSet, gpu::Image>> images_;
-  gpu::Image peelDepth_;  // made at the first peel
+  gpu::Image depthsInOrder_, idsInOrder_;  // pairs of which images_ holds the components, where they are drawn in order
+  gpu::Image peelDepth_;                   // made at the first peel
 };
 
 class MapRenderer {
@@ -62,8 +72,8 @@ class MapRenderer {
   // faces only, and is drawn whole. Throws WorldError where the map asks for SlicePasses::Multiview and the
   // device draws other slices so. The first map that does not ask for a pass a slice is kept waiting by the
   // check of the device.
-  void record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light, CullMode cull,
-              SecondLayer method = SecondLayer::Blend) const;
+  void record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
+              CullMode cull) const;
 
   // Of what else is made of maps (ShadowVolume), compiled at first use.
   const gpu::ComputePrograms& programs() const { return computePrograms_; }
@@ -79,6 +89,7 @@ class MapRenderer {
     std::vector<VkFormat> colorFormats;
     // Or else the rasterizer's own depth is all that is stored.
     bool needsFragments() const { return masked || !shaders.rasterizedDepth || !colorFormats.empty(); }
+    bool ordered() const { return pass == glsl::kPassOrdered; }
     bool operator==(const Key&) const = default;
   };
   struct Entry {
@@ -100,8 +111,8 @@ class MapRenderer {
   enum class Group { Sheets, Solids, MirroredSolids };
   using Grouping = std::function<Group(const Draw&)>;
   void recordSlices(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
-                    CullMode cull, SecondLayer method, bool multiview) const;
-  gpu::RenderTargets targetsOf(MapImage& map, ChannelPass pass, SecondLayer method) const;
+                    CullMode cull, bool multiview) const;
+  gpu::RenderTargets targetsOf(MapImage& map, ChannelPass pass) const;
   bool takesMultiview(const MapImage& map) const;
   void recordCorners(gpu::Commands& commands, const SceneBuffers& scene, const Slice& slice,
                      const Grouping& groupOf) const;

@@ -30,6 +30,8 @@ struct SliceShaders {
   // decide each texel. Or one that writes triangles of its own for a vertex shader of its own, in the same buffer
   // (shared/straight_triangle.glsl).
   const char* bounds = "";
+  // A second one after it, for those that it left over as large; empty: it leaves none.
+  const char* largeBounds = "";
   // One bit a slice that mirrors: there, what winds counter-clockwise seen from the light is clockwise on the slice.
   uint32_t mirroredSlices = 0;
   // The slices are clipFromLight's: what its sides do not let through need not be drawn.

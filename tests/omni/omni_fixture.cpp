@@ -46,10 +46,10 @@ FittedMap fitWhole(const World& world, const Parameterization& map, int side, co
 }
 
 Slices drawSlices(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
-                  ChannelSet channels, SecondLayer method) {
-  MapImage image(device, fitted, channels);
+                  ChannelSet channels, std::optional<SecondLayer> method) {
+  MapImage image(device, fitted, channels, method);
   gpu::Commands commands(device, "shadow map");
-  world.renderer->record(commands, world.buffers, image, world.light, cull, method);
+  world.renderer->record(commands, world.buffers, image, world.light, cull);
   commands.submitAndWait();
   const auto depthsOf = [&](ChannelSet channel) {
     return (image.channels() & channel) != 0 ? gpu::downloadAs<float>(device, image.image(channel))

@@ -37,7 +37,7 @@ struct Slices {
   std::vector<uint32_t> ids, secondIds;
 };
 Slices drawSlices(const gpu::Device& device, const World& world, const FittedMap& fitted, CullMode cull,
-                  ChannelSet channels = glsl::kChannelDepth, SecondLayer method = SecondLayer::Blend);
+                  ChannelSet channels = glsl::kChannelDepth, std::optional<SecondLayer> method = {});
 
 // Every held texel against the first hit of its own ray. A texel near an edge of what is seen may hold the
 // other side of it.

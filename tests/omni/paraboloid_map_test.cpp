@@ -66,6 +66,45 @@ TEST(ParaboloidMap, TheTexelsRayIsTheirRMadeUnit) {
   }
 }
 
+// The ray that is not unit, with which exact triangles are drawn (omni/draw_in_paraboloid.frag.glsl), meets a plane as
+// near to where it is met as the unit one does: against doubles, in units of 2^-24 of the distance.
+TEST(ParaboloidMap, TheDrawnRayMeetsAPlaneAsExactlyAsTheUnitRay) {
+  const FittedMap fitted = paraboloid(1774);
+  const vec4 numbers = mapDrawnNumbers(fitted.map);
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> texel(0, fitted.map.width - 1);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  double drawnSum = 0.0, unitSum = 0.0, drawnWorst = 0.0, unitWorst = 0.0;
+  size_t met = 0;
+  for (int i = 0; i < 1 << 18; ++i) {
+    const int slice = i & 1;
+    const vec2 center(static_cast<float>(texel(random)) + 0.5f, static_cast<float>(texel(random)) + 0.5f);
+    if (!mapHoldsTexelAt(fitted.map, center)) continue;
+    const vec3 normal = test::randomDirection(random) / (0.1f + 10.0f * unit(random));
+    const dvec2 at = dvec2(center) * (2.0 / 1774.0) - 1.0;
+    const double square = dot(at, at);
+    const dvec3 dir = dvec3(2.0 * at.x, -2.0 * at.y, (slice == 0 ? -1.0 : 1.0) * (1.0 - square)) / (1.0 + square);
+    const double cosine = dot(dvec3(normal), dir);
+    if (cosine < 0.05 * length(normal)) continue;  // behind, or so flat that both are far off
+    const ParaboloidDrawnRay drawn = paraboloidDrawnRay(numbers, slice, center);
+    const float drawnAlong = drawn.size / dot(normal, drawn.dir);
+    const Ray ray = mapTexelRay(fitted.map, slice, center / mapTexelCounts(fitted.map));
+    const float unitAlong = length(ray.dir * (1.0f / dot(normal, ray.dir)));
+    const auto offBy = [&](float along) { return std::abs(along * cosine - 1.0) * 16777216.0; };
+    drawnSum += offBy(drawnAlong);
+    unitSum += offBy(unitAlong);
+    drawnWorst = std::max(drawnWorst, offBy(drawnAlong));
+    unitWorst = std::max(unitWorst, offBy(unitAlong));
+    ++met;
+    if (unitAlong > fitted.map.zFar) continue;
+    ASSERT_NEAR(paraboloidDrawnDepth(numbers, unitAlong), mapDepth(fitted.map, slice, ray.dir * unitAlong), 3.6e-7f);
+  }
+  ASSERT_GT(met, 60000u);
+  EXPECT_LE(drawnSum, unitSum) << drawnSum / static_cast<double>(met) << " against "
+                               << unitSum / static_cast<double>(met);
+  EXPECT_LE(drawnWorst, 1.25 * unitWorst) << drawnWorst << " against " << unitWorst;
+}
+
 TEST(ParaboloidMap, TexelsOutsideTheDiscAreNotHeldAndThoseItTouchesAre) {
   for (const int side : {2, 3, 16, 255, 1024}) {
     const FittedMap fitted = paraboloid(side);

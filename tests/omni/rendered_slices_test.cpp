@@ -120,17 +120,30 @@ TEST_F(RenderedSlices, EveryTexelHoldsTheFirstHitOfItsRay) {
   }
 }
 
-TEST_F(RenderedSlices, BlendedAndPeeledSecondLayersAreEqualBitForBit) {
+TEST_F(RenderedSlices, BlendedPeeledAndOrderedSecondLayersAreEqualBitForBit) {
   for (const char* scene : {"contact", "sheets", "atrium"}) {
     const World world = open(scene);
     for (const Kind& kind : kindsOfAllRasters()) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 64, kind.options);
       for (const CullMode cull : {CullMode::None, CullMode::Solids}) {
-        const Slices blended = test::drawSlices(device(), world, fitted, cull, glsl::kChannelSecondDepth);
+        const Slices blended =
+            test::drawSlices(device(), world, fitted, cull, glsl::kChannelSecondDepth, SecondLayer::Blend);
         const Slices peeled =
             test::drawSlices(device(), world, fitted, cull, glsl::kChannelSecondDepth, SecondLayer::Peel);
         EXPECT_EQ(blended.z1, peeled.z1) << scene << ", " << kind.name;
         EXPECT_EQ(blended.z2, peeled.z2) << scene << ", " << kind.name;
+        if (device().info().orderedAttachmentAccess) {
+          const Slices ordered =
+              test::drawSlices(device(), world, fitted, cull, glsl::kChannelSecondDepth, SecondLayer::Ordered);
+          EXPECT_EQ(ordered.z1, blended.z1) << scene << ", " << kind.name;
+          EXPECT_EQ(ordered.z2, blended.z2) << scene << ", " << kind.name;
+          const ChannelSet all = glsl::kChannelIds | glsl::kChannelSecondIds;
+          const Slices ids = test::drawSlices(device(), world, fitted, cull, all, SecondLayer::Ordered);
+          const Slices idsPeeled = test::drawSlices(device(), world, fitted, cull, all, SecondLayer::Peel);
+          EXPECT_EQ(ids.z2, blended.z2) << scene << ", " << kind.name;
+          EXPECT_EQ(ids.ids, idsPeeled.ids) << scene << ", " << kind.name;
+          EXPECT_EQ(ids.secondIds, idsPeeled.secondIds) << scene << ", " << kind.name;
+        }
         size_t seconds = 0;
         for (size_t i = 0; i < blended.z1.size(); ++i) {
           ASSERT_TRUE(blended.z2[i] > blended.z1[i] || blended.z2[i] == 1.0f);

@@ -107,10 +107,10 @@ Rendered render(const gpu::Device& device, const std::string& sceneName, const P
 }
 
 std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, ChannelSet channels, CullMode cull,
-                               SecondLayer method) {
-  auto image = std::make_unique<MapImage>(device, r.fitted, channels);
+                               std::optional<SecondLayer> method) {
+  auto image = std::make_unique<MapImage>(device, r.fitted, channels, method);
   gpu::Commands commands(device, "shadow map");
-  r.renderer->record(commands, r.buffers, *image, r.light, cull, method);
+  r.renderer->record(commands, r.buffers, *image, r.light, cull);
   commands.submitAndWait();
   return image;
 }

@@ -50,6 +50,6 @@ Rendered render(const gpu::Device& device, const std::string& sceneName, const P
 
 // The map of `r` with other channels, or drawn another way.
 std::unique_ptr<MapImage> draw(const gpu::Device& device, const Rendered& r, ChannelSet channels, CullMode cull,
-                               SecondLayer method = SecondLayer::Blend);
+                               std::optional<SecondLayer> method = {});
 
 }  // namespace gnomon::test

@@ -141,8 +141,9 @@ TEST_F(MapImageTest, HolesOfMasksAreHolesOfTheMap) {
   EXPECT_LT(offAtRims, 5u);  // of the texels that a rim crosses 0.0055
 }
 
-// The paper's peel and the blend give the same two layers, to the bit, on every generated scene, culled and not.
-TEST_F(MapImageTest, BlendingAndPeelingGiveTheSameTwoLayers) {
+// The paper's peel, the blend and the pass in order give the same two layers, to the bit, on every generated scene,
+// culled and not.
+TEST_F(MapImageTest, BlendingPeelingAndDrawingInOrderGiveTheSameTwoLayers) {
   for (const GeneratedScene& generated : generatedScenes()) {
     for (const Parameterization* map : planarParameterizations()) {
       const test::Rendered r = test::render(device(), generated.name, *map, 64, 192, CullMode::None);
@@ -152,6 +153,13 @@ TEST_F(MapImageTest, BlendingAndPeelingGiveTheSameTwoLayers) {
         EXPECT_EQ(gpu::download(device(), blended->depth()), gpu::download(device(), peeled->depth()));
         EXPECT_EQ(gpu::download(device(), blended->secondDepth()), gpu::download(device(), peeled->secondDepth()))
             << generated.name << " " << map->name();
+        if (device().info().orderedAttachmentAccess) {
+          const auto ordered = test::draw(device(), r, glsl::kChannelSecondDepth, cull, SecondLayer::Ordered);
+          EXPECT_TRUE(ordered->drawsInOrder());
+          EXPECT_EQ(gpu::download(device(), blended->depth()), gpu::download(device(), ordered->depth()));
+          EXPECT_EQ(gpu::download(device(), blended->secondDepth()), gpu::download(device(), ordered->secondDepth()))
+              << generated.name << " " << map->name();
+        }
         const auto z1 = gpu::downloadAs<float>(device(), blended->depth());
         const auto z2 = gpu::downloadAs<float>(device(), blended->secondDepth());
         for (size_t i = 0; i < z1.size(); ++i) ASSERT_TRUE(z2[i] > z1[i] || z2[i] == 1.0f);

@@ -77,6 +77,23 @@ TEST(EpipolarMap, APointComesBackToItsColumnAndItsDepthToItsDistance) {
   }
 }
 
+// What columns are drawn with (vsv/draw_in_epipolar.frag.glsl).
+TEST(EpipolarMap, DrawnRaysAndDepthsHaveTheBitsOfTheMaps) {
+  for (const ShadowMap& map : maps()) {
+    const vec4 theta = mapDrawnNumbers(map);
+    const vec4 phi = mapMoreDrawnNumbers(map);
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) {
+        const vec2 center(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        const Ray ray = mapTexelRay(map, 0, center / mapTexelCounts(map));
+        ASSERT_EQ(epipolarMapDrawnRay(theta, phi, center), ray.dir);
+        const vec3 posL = ray.dir * (0.1f + 0.01f * static_cast<float>(x));
+        ASSERT_EQ(epipolarMapDrawnDepth(theta, phi, posL), mapDepth(map, 0, posL));
+      }
+    }
+  }
+}
+
 TEST(EpipolarMap, TheSlopeIsTheDerivativeOfDepth) {
   for (const ShadowMap& map : maps()) {
     const double D = map.epipolar.eyeDistance;
