@@ -18,5 +18,9 @@ void main() {
   firstId = rangeId;
   uv = uvs[gl_VertexIndex];
   vec3 posW = vec3(transform(instances[gl_InstanceIndex].worldFromMesh, vec4(positions[gl_VertexIndex], 1.0f)));
-  gl_Position = transform(mapSlices[drawnSlice()].clipFromLight, vec4(lightFromWorld(lightFrame, posW), 1.0f));
+  vec4 position = transform(mapSlices[drawnSlice()].clipFromLight, vec4(lightFromWorld(lightFrame, posW), 1.0f));
+  // A face in the light's own plane has w = 0 at all corners. Nothing of it is in the slice, but with depth clamped a
+  // GPU was seen to fill a whole cube face with it, at depth 0. A hair behind the light it is clipped.
+  if (position.w == 0.0f) position.w = -1e-30f;
+  gl_Position = position;
 }
