@@ -61,6 +61,12 @@ void checkVerb(int argc, char** argv) {
     throw UsageError(fmt::format("{}: no such subcommand; {}", word, chooseFrom(word, verbNames())));
 }
 
+std::string wrongFirstWord(const std::string& word) {
+  const std::string nearest = nearestName(word, {"--help", "--version"});
+  return fmt::format("{}: no such flag{} (see gnomon --help)", word,
+                     nearest.empty() ? "" : "; did you mean " + nearest + "?");
+}
+
 // What is wrong with a command line that a verb does not understand. Of the words left over the first one is told.
 std::string mistakeIn(const CLI::App& verb, const CLI::ParseError& error) {
   const std::vector<std::string> left = verb.remaining();
@@ -81,22 +87,24 @@ int parseAndRun(int argc, char** argv) {
   CLI::App app("Gnomon measures shadow-map bias for point, spot and directional lights", "gnomon");
   app.set_version_flag("--version", versionText());
   app.require_subcommand(1);
-  app.footer(std::string(kExitCodes) + "\n" + kEnvironment);
   app.option_defaults()->always_capture_default(false);
+  const std::string ending = std::string(kExitCodes) + "\n" + kEnvironment;
   std::vector<std::pair<const CLI::App*, Run>> runs;
   for (const Verb& verb : verbs()) {
     CLI::App* added = app.add_subcommand(verb.name, verb.sentence);
     runs.emplace_back(added, verb.add(added));
     const std::string footer = added->get_footer();
-    added->footer((footer.empty() ? "" : footer + "\n") + kExitCodes);
+    added->footer((footer.empty() ? "" : footer + "\n") + ending);
   }
+  app.footer(ending);  // now: a subcommand begins with the program's
   checkVerb(argc, argv);
   const auto isGiven = [](const auto& run) { return run.first->parsed(); };
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const auto given = std::ranges::find_if(runs, isGiven);
-    if (error.get_exit_code() != 0) throw UsageError(mistakeIn(given == runs.end() ? app : *given->first, error));
+    if (error.get_exit_code() != 0)
+      throw UsageError(given == runs.end() ? wrongFirstWord(argv[1]) : mistakeIn(*given->first, error));
     std::ostringstream help;  // --help, --version
     app.exit(error, help, help);
     say(help.str());

@@ -114,11 +114,11 @@ Session openSession(const SceneFlags& flags) {
   const LightPlaces places(session.scene());
   for (const Light& light : lightsAsked(flags.setup, session.tracer()))
     if (const std::optional<std::string> surface = places.surfaceThrough(light))
-      fmt::print(
-          stderr,
-          "gnomon: note: light '{}' lies in the surface of '{}': rounding decides which side of it is dark; move "
-          "it off, as with --light '{}@x,y,z', or let that cast no shadow: --exclude '{}'\n",
-          light.name, *surface, light.name, *surface);
+      fmt::print(stderr,
+                 "gnomon: note: light '{}' lies in the surface of '{}': rounding decides what of it is dark, on an "
+                 "edge or a corner all; move "
+                 "it off, as with --light '{}@x,y,z', or let that cast no shadow: --exclude '{}'\n",
+                 light.name, *surface, light.name, *surface);
   return session;
 }
 

@@ -370,6 +370,19 @@ TEST_F(UsageTest, DensitiesThatFollowOneAnotherAreFrames) {
   expectMistake(fog + "--frames 4", 1, "puff.006.vdb: does not exist");
 }
 
+TEST_F(UsageTest, HelpEndsOnceWithExitCodesAndAWrongFirstFlagIsNamed) {
+  for (const char* verb : {"compare", "fog", "info", "man"}) {
+    const std::string help = run(std::string(verb) + " --help").out;
+    const size_t first = help.find("Exit codes:");
+    ASSERT_NE(first, std::string::npos) << verb;
+    EXPECT_EQ(help.find("Exit codes:", first + 1), std::string::npos) << verb;
+    EXPECT_TRUE(has(help, "GNOMON_DEVICE")) << verb;
+  }
+  const auto misspelt = run("--verison");
+  EXPECT_EQ(misspelt.exitCode, 2);
+  EXPECT_TRUE(has(misspelt.err, "--verison: no such flag; did you mean --version? (see gnomon --help)"));
+}
+
 TEST_F(UsageTest, ATerminalIsToldHowLongTheRestTakes) {
   if (!isInstalled("script")) GTEST_SKIP() << "skipped: no script here";
   // Ten seconds of work on a fast machine, ended where it takes longer.

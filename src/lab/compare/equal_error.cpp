@@ -162,8 +162,10 @@ EqualError findEqualError(const Session& session, ShadowPasses& passes, const Co
         found.methods.push_back(std::move(method));
     }
   }
+  // By nothing that is timed: the same command gives the same order.
   std::ranges::stable_sort(found.methods, {}, [](const EqualErrorMethod& method) {
-    return method.smallest ? std::pair(0.0, method.smallest->frameMs) : std::pair(1.0, method.sizes.back().allWrong);
+    return method.smallest ? std::pair(0.0, static_cast<double>(method.smallest->mapBytes))
+                           : std::pair(1.0, method.sizes.back().allWrong);
   });
   return found;
 }

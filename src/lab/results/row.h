@@ -281,7 +281,7 @@ struct Row {
                .ranks = true,
                .metric = true}),
         field("all_wrong", &Row::allWrong,
-              {.says = "`wrong` / scored: edges too, which no bias can mend",
+              {.says = "`wrong` / scored: edges too, which no bias that compares depths can mend",
                .kind = NumberKind::Share,
                .table = {"all wrong", 9, 4},
                .metric = true}),
