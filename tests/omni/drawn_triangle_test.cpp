@@ -79,18 +79,19 @@ Named nameTexels(const Tracer& tracer, const SceneBuffers& buffers, const Fitted
 // As many as 1 in `most` texels may lie on an edge of triangles within the rasterizer's grid.
 // Where surfaces cross, depths decide, which a GPU interpolates between corners moved to that grid.
 void expectNamed(const Named& named, size_t texels, bool straight, bool movesCorners, const std::string& what) {
-  EXPECT_GT(named.drawn, texels / 16) << what;
+  EXPECT_GT(named.drawn, texels / 512) << what;  // planes are few texels of a cube
   if (straight) {  // a straight piece of an arc is off by up to half a texel: 4% of atrium's texels, 10% of factory's
     EXPECT_LT(named.others, named.drawn / 8) << what;
     return;
   }
-  EXPECT_LT(named.others, named.drawn / 300) << what;
+  EXPECT_LE(named.others, named.drawn / 300) << what;
   // A corner of a silhouette may lie between two of those rays.
   EXPECT_LE(named.others - named.atEdges, named.drawn / (movesCorners ? 200 : 2000)) << what;
 }
 
 TEST_F(DrawnTriangle, IsTheFirstThatTheTexelsRayMeets) {
-  for (const char* scene : {"atrium", "sheets", "contact", "factory", "lshape", "crowd:50000"}) {
+  for (const char* scene : {"lshape", "double-torus", "factory", "atrium", "corner", "grate", "sheets", "contact",
+                            "tilted-planes", "near-far", "crowd:50000"}) {
     const test::World world = test::openWorld(device(), openScene(scene));
     for (const Kind& kind : omniKinds()) {
       const FittedMap fitted = test::fitWhole(world, kind.map, 128, kind.options);
@@ -123,7 +124,7 @@ TEST_F(DrawnTriangle, BetweenProjectedCornersComesToTheRaysWithTheMeshsFineness)
 }
 
 TEST_F(DrawnTriangle, OfPlanarMapsToo) {
-  for (const char* scene : {"atrium", "sheets", "contact", "factory"}) {
+  for (const char* scene : {"lshape", "double-torus", "factory", "atrium", "corner", "sheets", "contact", "near-far"}) {
     for (const Kind& kind : planarKinds()) {
       const test::Rendered r = test::render(device(), scene, kind.map, 64, 128, CullMode::None, glsl::kChannelIds);
       const FittedMap fitted = kind.map.fit({.scene = r.scene,
