@@ -50,8 +50,9 @@ double parseShare(const std::string& flag, const std::string& text) {
   const bool percent = text.ends_with('%');
   const std::optional<double> number = parseNumber(percent ? text.substr(0, text.size() - 1) : text);
   const double share = number.value_or(-1.0) * (percent ? 0.01 : 1.0);
-  if (!(share >= 0.0 && share < 1.0))
-    throw UsageError(fmt::format("{} {}: write a share of the pixels, as in 0.1% or 0.001", flag, text));
+  if (!(share > 0.0 && share < 1.0))
+    throw UsageError(
+        fmt::format("{} {}: write a share of the pixels between 0 and 1, as in 0.1% or 0.001", flag, text));
   return share;
 }
 

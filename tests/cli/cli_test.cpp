@@ -263,6 +263,7 @@ TEST_F(CliTest, UntilErrorFindsTheSmallestMaps) {
   EXPECT_TRUE(equal.at("methods")[1].at("smallest").is_null());
   EXPECT_NE(readFile(folder_ / "out" / "report.html").find("Equal error"), std::string::npos);
   expectMistake("compare contact --until-error 2", 2, "--until-error 2: write a share of the pixels");
+  expectMistake("compare contact --until-error 0", 2, "--until-error 0: write a share of the pixels between 0 and 1");
   expectMistake("compare contact --until-error much", 2, "--until-error much");
   expectMistake("compare contact --until-error 1% --until-map-size 1", 2, "--until-map-size");
 }

@@ -170,6 +170,10 @@ TEST(DensitySequences, AreFilesByNumber) {
   EXPECT_THROW(DensitySequence(pattern, std::nullopt, 4), WorldError);
   EXPECT_THROW(DensitySequence((folder.path() / "fog.##.vdb").string(), std::nullopt, 2), WorldError);
   EXPECT_THROW(DensitySequence("a#b#.vdb", std::nullopt, 2), UsageError);
+  EXPECT_THROW(DensitySequence(pattern, -1, 2), UsageError);
+  EXPECT_FALSE(DensitySequence::isOne("take#3/smoke.vdb:density"));
+  writeTextFile(folder.path() / "take#3.vdb", "");
+  EXPECT_FALSE(DensitySequence::isOne((folder.path() / "take#3.vdb").string()));
 }
 
 }  // namespace

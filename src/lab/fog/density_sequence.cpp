@@ -20,6 +20,12 @@ std::string withoutGrid(const std::string& fileAndGrid) {
   return extension == std::string::npos ? fileAndGrid : fileAndGrid.substr(0, extension + 4);
 }
 
+// Where the file's own name begins: # in folders is no frame's number.
+size_t nameBegin(const std::string& fileAndGrid) {
+  const size_t slash = withoutGrid(fileAndGrid).rfind('/');
+  return slash == std::string::npos ? 0 : slash + 1;
+}
+
 std::optional<int> leastNumber(const fs::path& folder, const std::string& before, const std::string& after) {
   std::optional<int> least;
   std::error_code failure;
@@ -37,11 +43,14 @@ std::optional<int> leastNumber(const fs::path& folder, const std::string& before
 }  // namespace
 
 bool DensitySequence::isOne(const std::string& fileAndGrid) {
-  return fileAndGrid.find('#') != std::string::npos;
+  std::error_code failure;
+  return fileAndGrid.find('#', nameBegin(fileAndGrid)) != std::string::npos &&
+         !fs::exists(withoutGrid(fileAndGrid), failure);
 }
 
 DensitySequence::DensitySequence(const std::string& fileAndGrid, std::optional<int> first, int frames) {
-  const size_t begin = fileAndGrid.find('#'), end = fileAndGrid.find_first_not_of('#', begin);
+  if (first && *first < 0) throw UsageError(fmt::format("--first-frame {}: frames are counted from 0", *first));
+  const size_t begin = fileAndGrid.find('#', nameBegin(fileAndGrid)), end = fileAndGrid.find_first_not_of('#', begin);
   if (end == std::string::npos || fileAndGrid.find('#', end) != std::string::npos ||
       fileAndGrid.find('/', begin) != std::string::npos)
     throw UsageError(
