@@ -77,6 +77,25 @@ TEST(Recommendation, IsSilentWhereThereIsNothingToChoose) {
   EXPECT_EQ(recommendation(comparisonOf({rowOf("dual", 5, 20, 0.05)})), "");
 }
 
+// The exact shadow's own margin decides 4 pixels: what differs by no more is as good, and may be cheaper.
+TEST(Recommendation, NamesWhatTheExactShadowCannotTellApart) {
+  Row best = rowOf("witness", 5, 20, 0.05), near = rowOf("slope", 9, 20, 0.05), far = rowOf("constant", 10, 20, 0.05);
+  Row edgy = rowOf("dual", 5, 25, 0.05);
+  near.frameMs = 4.0;
+  Comparison comparison = comparisonOf({best, near, far, edgy});
+  comparison.truths = {{.map = "cube", .light = {.name = "lamp"}, .scored = 10000, .lit = 5000, .marginFlipsDouble = 4}};
+  EXPECT_EQ(linesOf(recommendation(comparison)).back(),
+            "  as good, within the 4 pixels that the exact shadow cannot tell: slope on a cube map (4 ms)");
+  comparison.truths[0].marginFlipsDouble = 3;
+  EXPECT_EQ(linesOf(recommendation(comparison)).size(), 1u);
+}
+
+TEST(Recommendation, GivesNoneWhereTheLightLightsNothing) {
+  Comparison comparison = comparisonOf({rowOf("dual", 0, 0, 0.0), rowOf("constant", 0, 0, 0.0)});
+  comparison.truths = {{.map = "cube", .light = {.name = "lamp"}, .scored = 10000, .lit = 0}};
+  EXPECT_TRUE(recommendation(comparison).starts_with("No advice: all that the camera sees lies in shadow"));
+}
+
 TEST(Recommendation, TellsTheBestTunedRowApart) {
   Row tuned = rowOf("slope", 1, 20, 0.05), given = rowOf("constant", 7, 0, 0.1);
   tuned.tuning = Tuning{.knob = "offset", .otherMapSize = MapSizeTransfer{{0.04, 0.01}, 256}};

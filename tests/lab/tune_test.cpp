@@ -103,6 +103,27 @@ TEST_F(TuneTest, AMethodElsewhereIsWhatItsLabelsSayThere) {
   EXPECT_NE(elsewhere.otherCamera->allWrong, elsewhere.otherMapSize->allWrong);
 }
 
+// Pixels of all lights are added up before a share is taken; the same light twice is as wrong as once.
+TEST_F(TuneTest, ErrorsElsewhereOfSeveralLightsAreOfAllTheirPixels) {
+  ErrorCount bright{.scored = 900, .biasErrors = 9, .wrong = 18, .squares = 9.0};
+  const ErrorCount dim{.scored = 100, .biasErrors = 11, .wrong = 22, .squares = 1.0};
+  bright += dim;
+  ErrorElsewhere there;
+  bright.tell(there);
+  EXPECT_DOUBLE_EQ(there.biasError, 0.02);
+  EXPECT_DOUBLE_EQ(there.allWrong, 0.04);
+  EXPECT_DOUBLE_EQ(there.rmse.value_or(0.0), 0.1);
+  CompareOptions options;
+  options.mapSide = 64;
+  Robustness robustness(lit_, options);
+  Robustness::Counts counts;
+  const Elsewhere once = robustness.judge(method("constant"), ChosenFilter(glsl::kShadowFilterNone), counts);
+  const Elsewhere twice = robustness.judge(method("constant"), ChosenFilter(glsl::kShadowFilterNone), counts);
+  EXPECT_GT(once.otherMapSize->biasError, 0.0);
+  EXPECT_DOUBLE_EQ(twice.otherMapSize->biasError, once.otherMapSize->biasError);
+  EXPECT_EQ(counts.otherMapSize.scored, 2 * LightOnMap(lit_, {.side = 32}).receivers().scored);
+}
+
 TEST_F(TuneTest, RobustnessIsNeverBetterThanTheBestThere) {
   CompareOptions options;
   options.mapSide = 64;

@@ -1,6 +1,7 @@
 #include "lab/compare/recommendation.h"
 
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -75,6 +76,36 @@ std::string twoLines(const Comparison& comparison, const char* begins, const Row
   return text;
 }
 
+// What the exact shadow itself cannot tell: pixels that change with its margin, of the lights that a row sums.
+size_t undecidedPixels(const Comparison& comparison, const Row& row) {
+  size_t pixels = 0;
+  for (const TruthSummary& truth : comparison.truths)
+    if (truth.map == row.map && (row.isSum || truth.light.name == row.light))
+      pixels += std::max(truth.marginFlipsHalf, truth.marginFlipsDouble);
+  return pixels;
+}
+
+// Rows of the same filter that are no worse than the best one by more than the exact shadow can tell, cheapest first.
+std::string equallyGood(const Comparison& comparison, const std::vector<Row>& rows, const Row& best) {
+  constexpr size_t kNamed = 3;
+  const size_t undecided = undecidedPixels(comparison, best);
+  std::vector<const Row*> equals;
+  for (const Row& row : rows)
+    if (&row != &best && row.isSum == best.isSum && row.light == best.light && row.filter == best.filter &&
+        !row.isTuned() && row.acne + row.leak <= best.acne + best.leak + undecided &&
+        row.wrong() <= best.wrong() + undecided)
+      equals.push_back(&row);
+  if (equals.empty() || best.isFiltered()) return "";
+  std::ranges::stable_sort(equals, {}, &Row::frameMs);
+  std::string names;
+  for (const Row* row : std::span(equals).first(std::min(equals.size(), kNamed)))
+    names += fmt::format("{}{} on a {} map ({:.3g} ms)", names.empty() ? "" : ", ", row->bias, row->map, row->frameMs);
+  if (equals.size() > kNamed) names += fmt::format(" and {} more", equals.size() - kNamed);
+  const std::string within =
+      undecided == 0 ? "" : fmt::format(", within the {} pixels that the exact shadow cannot tell", undecided);
+  return fmt::format("  as good{}: {}\n", within, names);
+}
+
 }  // namespace
 
 std::string percentText(double share) {
@@ -98,7 +129,12 @@ std::string recommendation(const Comparison& comparison) {
   std::string text;
   const bool sums = std::ranges::any_of(rows, &Row::isSum);
   if (std::ranges::count(rows, sums, &Row::isSum) < 2) return "";  // nothing to choose from
-  if (best.untuned != nullptr) text += twoLines(comparison, "Use", *best.untuned, elsewhereText(*best.untuned));
+  const auto isDark = [](const TruthSummary& truth) { return truth.lit == 0; };
+  if (!comparison.truths.empty() && std::ranges::all_of(comparison.truths, isDark))
+    return "No advice: all that the camera sees lies in shadow, which any small bias gets right\n";
+  if (best.untuned != nullptr)
+    text += twoLines(comparison, "Use", *best.untuned, elsewhereText(*best.untuned)) +
+            equallyGood(comparison, rows, *best.untuned);
   if (best.tuned != nullptr)
     text += twoLines(comparison, "Tuned for this very picture:", *best.tuned, transferText(*best.tuned));
   return text;

@@ -12,8 +12,9 @@ std::string percentText(double share);  // "0.123%"
 // The parameters of a row: "offset 0.01 m, factor 2".
 std::string knobText(const Row& row);
 
-// Two lines about the best row whose parameters nobody searched, and where some were searched two about the best of
-// those. Empty where fewer than two methods were compared.
+// Two lines about the best row whose parameters nobody searched, one that names what is as good within what the exact
+// shadow can tell, and where some were searched two about the best of those. Empty where fewer than two methods were
+// compared; says why where the light lights nothing.
 std::string recommendation(const Comparison& comparison);
 
 }  // namespace gnomon

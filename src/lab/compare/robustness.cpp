@@ -61,7 +61,7 @@ struct Robustness::Place {
   }
 
   Transfer judge(const TunedMethod& tuned, const ChosenFilter& filter);
-  void judge(const Method& method, const ChosenFilter& filter, ErrorElsewhere& there);
+  ErrorCount count(const Method& method, const ChosenFilter& filter);
 };
 
 Robustness::Robustness(const LightOnMap& here, const CompareOptions& options)
@@ -92,14 +92,31 @@ Transfer Robustness::Place::judge(const TunedMethod& tuned, const ChosenFilter& 
   return transfer;
 }
 
-void Robustness::Place::judge(const Method& method, const ChosenFilter& filter, ErrorElsewhere& there) {
+ErrorCount Robustness::Place::count(const Method& method, const ChosenFilter& filter) {
   const LabelledResult judged = lit.judge(method);
-  const auto share = [&](size_t pixels) {
-    return static_cast<double>(pixels) / static_cast<double>(lit.receivers().scored);
-  };
-  there.biasError = share(judged.labels.count(Label::Acne) + judged.labels.count(Label::Leak));
-  there.allWrong = share(lit.receivers().scored - judged.labels.count(Label::Agree));
-  if (filter.id != glsl::kShadowFilterNone) there.rmse = evaluator(filter).rmse(method);
+  ErrorCount count;
+  count.scored = lit.receivers().scored;
+  count.biasErrors = judged.labels.count(Label::Acne) + judged.labels.count(Label::Leak);
+  count.wrong = count.scored - judged.labels.count(Label::Agree);
+  if (filter.id == glsl::kShadowFilterNone) return count;
+  const double rmse = evaluator(filter).rmse(method);
+  count.squares = rmse * rmse * static_cast<double>(count.scored);
+  return count;
+}
+
+ErrorCount& ErrorCount::operator+=(const ErrorCount& other) {
+  scored += other.scored;
+  biasErrors += other.biasErrors;
+  wrong += other.wrong;
+  if (other.squares) squares = squares.value_or(0.0) + *other.squares;
+  return *this;
+}
+
+void ErrorCount::tell(ErrorElsewhere& there) const {
+  const double all = static_cast<double>(scored);
+  there.biasError = static_cast<double>(biasErrors) / all;
+  there.allWrong = static_cast<double>(wrong) / all;
+  if (squares) there.rmse = std::sqrt(*squares / all);
 }
 
 Tuning tuningOf(const TunedMethod& tuned) {
@@ -120,44 +137,39 @@ Tuning Robustness::judge(const TunedMethod& tuned, const ChosenFilter& filter) {
   return tuning;
 }
 
-Elsewhere Robustness::judge(const Method& method, const ChosenFilter& filter) {
+Elsewhere Robustness::judge(const Method& method, const ChosenFilter& filter, Counts& counts) {
   Elsewhere elsewhere;
-  if (otherCamera_) otherCamera_->judge(method, filter, elsewhere.otherCamera.emplace());
-  if (elsewhere.otherCamera) elsewhere.otherCamera->camera = otherView_.camera().name;
-  otherMapSize_->judge(method, filter, elsewhere.otherMapSize.emplace());
+  if (otherCamera_) counts.otherCamera += otherCamera_->count(method, filter);
+  if (counts.otherCamera.scored > 0) {
+    counts.otherCamera.tell(elsewhere.otherCamera.emplace());
+    elsewhere.otherCamera->camera = otherView_.camera().name;
+  }
+  counts.otherMapSize += otherMapSize_->count(method, filter);
+  counts.otherMapSize.tell(elsewhere.otherMapSize.emplace());
   elsewhere.otherMapSize->mapSize = otherMapSize_->lit.fitted().map.width;
   return elsewhere;
 }
 
+Elsewhere Robustness::judge(const Method& method, const ChosenFilter& filter) {
+  Counts counts;
+  return judge(method, filter, counts);
+}
+
 namespace {
 
-void keepLarger(ErrorElsewhere& kept, const ErrorElsewhere& other) {
-  kept.biasError = std::max(kept.biasError, other.biasError);
-  kept.allWrong = std::max(kept.allWrong, other.allWrong);
-  if (other.rmse) kept.rmse = std::max(kept.rmse.value_or(0.0), *other.rmse);
-}
-
-template <typename T>
-void keepLarger(std::optional<T>& kept, const std::optional<T>& other) {
-  if (!kept)
-    kept = other;
-  else if (other)
-    keepLarger(*kept, *other);
-}
-
-// How wrong a row's method is from another camera and on half the map. Of several lights the largest errors.
+// How wrong a row's method is from another camera and on half the map, over all lights together.
 Elsewhere elsewhereOf(const Session& session, ShadowPasses& passes, const CompareOptions& options, const Row& row) {
   const Parameterization& map = **std::ranges::find(options.maps, row.map, &Parameterization::name);
   const BiasMethod& bias = **std::ranges::find(options.biases, row.bias, &BiasMethod::name);
   const Filter& filter = **std::ranges::find(options.filters, row.filter, &Filter::name);
   Elsewhere elsewhere;
+  Robustness::Counts counts;
   for (const Light& light : chooseLights(session.setup(), session.tracer(), map)) {
     throwIfInterrupted();
     const LightOnMap lit(session, passes, map, light, mapSetupOf(options, map));
     if (lit.receivers().scored == 0) continue;
-    const Elsewhere one = Robustness(lit, options).judge(methodFor(session, options, bias), filterFor(options, filter));
-    keepLarger(elsewhere.otherCamera, one.otherCamera);
-    keepLarger(elsewhere.otherMapSize, one.otherMapSize);
+    elsewhere =
+        Robustness(lit, options).judge(methodFor(session, options, bias), filterFor(options, filter), counts);
   }
   return elsewhere;
 }

@@ -15,6 +15,15 @@ Camera orbitedCamera(const SceneView& view);
 // What was tuned, and not yet how good it is elsewhere.
 Tuning tuningOf(const TunedMethod& tuned);
 
+// Scored pixels of one light, or of several together, that a method has wrong.
+struct ErrorCount {
+  size_t scored = 0, biasErrors = 0, wrong = 0;
+  std::optional<double> squares;  // of the differences, through a filter
+
+  ErrorCount& operator+=(const ErrorCount& other);
+  void tell(ErrorElsewhere& there) const;
+};
+
 class Robustness {
  public:
   Robustness(const LightOnMap& here, const CompareOptions& options);
@@ -24,7 +33,11 @@ class Robustness {
   // that faces the light, it is left out.
   Tuning judge(const TunedMethod& tuned, const ChosenFilter& filter);
 
-  // A method as it is, there.
+  // A method as it is, there. The counts come on top of those of other lights.
+  struct Counts {
+    ErrorCount otherCamera, otherMapSize;
+  };
+  Elsewhere judge(const Method& method, const ChosenFilter& filter, Counts& counts);
   Elsewhere judge(const Method& method, const ChosenFilter& filter);
 
  private:

@@ -211,6 +211,7 @@ void setLead(TemplateData& page, const MediaResults& media) {
   page.set("leadName", first.name());
   page.set("leadId", rowId(1));
   page.set("leadError", first.relRmse ? TemplateData(errorText(*first.relRmse)) : TemplateData(false));
+  page.set("leadError99", first.relRmse99 ? TemplateData(errorText(*first.relRmse99)) : TemplateData(false));
   // A bound says something where it lies on the side it bounds.
   const auto tells = [](const Factor& factor) {
     return factor.bound == Bound::Exact || (factor.value >= 1.0) == (factor.bound == Bound::AtLeast);
