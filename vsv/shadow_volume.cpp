@@ -121,7 +121,7 @@ void ShadowVolume::recordVisibility(gpu::Commands& commands, const SceneBuffers&
       pass.programs().get("vsv/shade_volume_visibility.comp.glsl", {{.id = 0, .value = lookup.bias.id},
                                                                     {.id = 1, .value = lookup.diagnose ? 1 : 0},
                                                                     {.id = 4, .value = scene.instanced ? 1 : 0}});
-  commands.dispatch(program, pass.groupCount(), {},
+  commands.dispatch(program, pass.groupsOf(lookup), {},
                     {{glsl::kBindPositions, scene.positions},
                      {glsl::kBindTriangles, scene.triangles},
                      {glsl::kBindInstances, scene.instances},
@@ -130,7 +130,7 @@ void ShadowVolume::recordVisibility(gpu::Commands& commands, const SceneBuffers&
                      {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
                      {glsl::kBindShade, pass.uniforms()},
                      {glsl::kBindVisibility, pass.visibility()},
-                     {glsl::kBindDiagnosis, pass.diagnosis()}});
+                     {glsl::kBindDiagnosis, pass.diagnosisFor(lookup)}});
 }
 
 std::vector<float> ShadowVolume::downloadDepth(const gpu::Device& device) const {

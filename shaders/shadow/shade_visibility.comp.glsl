@@ -36,19 +36,14 @@ layout(scalar, binding = kBindWalkDispatch) buffer Dispatches { WalkDispatch wal
 
 #include "shadow/map_visibility.glsl"
 #include "shadow/receiver_fetch.glsl"
+#include "shadow/receiver_id.glsl"
 
 // Empty pixels are lit; a surface that faces away is not.
 float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosis) {
   if (id.instancePlusOne == 0u) return 1.0f;
   Receiver receiver;
   if (!fetchReceiver(pixel, id, receiver)) return 0.0f;
-  if ((kChannels & (kChannelIds | kChannelSecondIds)) != 0) {
-    receiver.id = id.triangle + 1u;
-    if (kInstanced == 1) {
-      uint instance = id.instancePlusOne - 1u;
-      receiver.id = instances[instance].firstId + (id.triangle - instances[instance].firstTriangle);
-    }
-  }
+  receiver.id = receiverId(id);
   return receiverVisibility(receiver, pixel, pixelDiagnosis);
 }
 

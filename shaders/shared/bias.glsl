@@ -70,59 +70,57 @@ GNOMON_SHARED_BEGIN
 #define biasMethod(method) method
 #endif
 
-// Where the receiver is looked up and compared: at itself, but for methods that move it first.
+// Methods that move the receiver before it is looked up and compared, and where to; lists, so that what is compiled of
+// them for a constant method is one call, wherever they are expanded (shadow/decide_methods.comp.glsl).
+#define GNOMON_MOVING_BIASES(CASE)                                        \
+  CASE(kBiasNormalOffset, normalOffsetReceiver(map, params, receiver))    \
+  CASE(kBiasEevee, eeveeReceiver(map, receiver))                          \
+  CASE(kBiasGodot, godotReceiver(map, receiver))                          \
+  CASE(kBiasBevy, bevyReceiver(map, receiver))                            \
+  CASE(kBiasUnrealVsm, unrealVsmReceiver(map, receiver))
+
+// How each method decides whether a texel lights the receiver.
+#define GNOMON_BIASES(CASE)                                               \
+  CASE(kBiasNone, noneLit(map, receiver, tap))                            \
+  CASE(kBiasConstant, constantLit(map, params, receiver, tap))            \
+  CASE(kBiasSlope, slopeLit(map, params, receiver, tap))                  \
+  CASE(kBiasAdaptive, adaptiveLit(map, params, receiver, tap))            \
+  CASE(kBiasAdaptiveClamped, adaptiveClampedLit(map, params, receiver, tap)) \
+  CASE(kBiasAdaptiveEhm, adaptiveEhmLit(map, params, receiver, tap))      \
+  CASE(kBiasNormalOffset, noneLit(map, receiver, tap))                    \
+  CASE(kBiasCosine, cosineLit(map, params, receiver, tap))                \
+  CASE(kBiasReceiverPlane, receiverPlaneLit(map, params, receiver, tap))  \
+  CASE(kBiasSecondDepth, secondDepthLit(map, params, receiver, tap))      \
+  CASE(kBiasMidpoint, midpointLit(map, receiver, tap))                    \
+  CASE(kBiasDual, dualLit(map, params, receiver, tap))                    \
+  CASE(kBiasUser, userLit(map, params, receiver, tap))                    \
+  CASE(kBiasEevee, eeveeLit(map, receiver, tap))                          \
+  CASE(kBiasGodot, godotLit(map, receiver, tap))                          \
+  CASE(kBiasBevy, noneLit(map, receiver, tap))                            \
+  CASE(kBiasUnrealVsm, unrealVsmLit(map, receiver, tap))
+
+#define GNOMON_CASE_RETURN(id, value) \
+  case id:                            \
+    return value;
+
 GNOMON_FN Receiver biasReceiver(int method, ShadowMap map, BiasParams params, Receiver receiver) {
-  if (biasMethod(method) == kBiasNormalOffset) return normalOffsetReceiver(map, params, receiver);
-  if (biasMethod(method) == kBiasEevee) return eeveeReceiver(map, receiver);
-  if (biasMethod(method) == kBiasGodot) return godotReceiver(map, receiver);
-  if (biasMethod(method) == kBiasBevy) return bevyReceiver(map, receiver);
-  if (biasMethod(method) == kBiasUnrealVsm) return unrealVsmReceiver(map, receiver);
+  switch (biasMethod(method)) { GNOMON_MOVING_BIASES(GNOMON_CASE_RETURN) }
   return receiver;
 }
 
-// Whether the texel lights the receiver. An unknown method sets `known` to false, and the shader paints magenta.
+// An unknown method sets `known` to false, and the shader paints magenta.
 GNOMON_FN bool biasLit(int method, ShadowMap map, BiasParams params, Receiver receiver, Tap tap,
                        GNOMON_OUT(bool) known) {
   known = true;
   if (holdsNothing(tap)) return true;
-  switch (biasMethod(method)) {
-    case kBiasNone:
-      return noneLit(map, receiver, tap);
-    case kBiasConstant:
-      return constantLit(map, params, receiver, tap);
-    case kBiasSlope:
-      return slopeLit(map, params, receiver, tap);
-    case kBiasAdaptive:
-      return adaptiveLit(map, params, receiver, tap);
-    case kBiasAdaptiveClamped:
-      return adaptiveClampedLit(map, params, receiver, tap);
-    case kBiasAdaptiveEhm:
-      return adaptiveEhmLit(map, params, receiver, tap);
-    case kBiasNormalOffset:
-      return noneLit(map, receiver, tap);
-    case kBiasCosine:
-      return cosineLit(map, params, receiver, tap);
-    case kBiasReceiverPlane:
-      return receiverPlaneLit(map, params, receiver, tap);
-    case kBiasSecondDepth:
-      return secondDepthLit(map, params, receiver, tap);
-    case kBiasMidpoint:
-      return midpointLit(map, receiver, tap);
-    case kBiasDual:
-      return dualLit(map, params, receiver, tap);
-    case kBiasUser:
-      return userLit(map, params, receiver, tap);
-    case kBiasEevee:
-      return eeveeLit(map, receiver, tap);
-    case kBiasGodot:
-      return godotLit(map, receiver, tap);
-    case kBiasBevy:
-      return noneLit(map, receiver, tap);
-    case kBiasUnrealVsm:
-      return unrealVsmLit(map, receiver, tap);
-  }
+  switch (biasMethod(method)) { GNOMON_BIASES(GNOMON_CASE_RETURN) }
   known = false;
   return false;
+}
+
+GNOMON_FN bool biasMovesReceiver(int method) {
+#define GNOMON_CASE_OR(id, value) || method == id
+  return false GNOMON_MOVING_BIASES(GNOMON_CASE_OR);
 }
 
 GNOMON_SHARED_END

@@ -20,6 +20,10 @@ const int kBindDiagnosis = 31;   // PixelDiagnosis a pixel
 const int kBindWalkers = 33;      // uint a pixel of the list: its number
 const int kBindWalkDispatch = 34; // WalkDispatch, of kStageWalks and of kStageWalksAcross
 const int kShadeGroupSide = 8;   // pixels; the work group is square
+// Of several methods that are decided together (shadow/decide_methods.comp.glsl).
+const int kBindMethodParams = 35;  // BiasParams[kMostTogether]
+const int kBindDecisions = 36;     // uint[planes][pixels]
+const int kMostTogether = 8;
 
 struct ShadeUniforms {
   CameraView camera;

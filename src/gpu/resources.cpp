@@ -293,12 +293,12 @@ void upload(const Device& device, const Buffer& buffer, std::span<const std::byt
   }
 }
 
-std::vector<std::byte> download(const Device& device, const Buffer& buffer, VkDeviceSize size) {
-  GNOMON_CHECK_LE(size, buffer.size());
-  std::vector<std::byte> bytes(size == 0 ? buffer.size() : size);
+void download(const Device& device, const Buffer& buffer, std::span<std::byte> bytes) {
+  GNOMON_CHECK_LE(bytes.size(), buffer.size());
+  if (bytes.empty()) return;
   if (buffer.mapped()) {
     std::memcpy(bytes.data(), buffer.mapped(), bytes.size());
-    return bytes;
+    return;
   }
   const Buffer staging(device, {.name = "staging for download",
                                 .size = std::min<VkDeviceSize>(bytes.size(), kStagingBytes),
@@ -311,7 +311,6 @@ std::vector<std::byte> download(const Device& device, const Buffer& buffer, VkDe
     commands.submitAndWait();
     std::memcpy(bytes.data() + done, staging.mapped(), region.size);
   }
-  return bytes;
 }
 
 std::vector<std::byte> download(const Device& device, const Image& image) {

@@ -88,8 +88,8 @@ class Image {
 // Copies bytes in and waits.
 void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> bytes);
 
-// Copies `size` bytes out (all when 0) and waits.
-std::vector<std::byte> download(const Device& device, const Buffer& buffer, VkDeviceSize size = 0);
+// Copies the first bytes out and waits.
+void download(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);
 
 // All layers, tightly packed, layer after layer, rows from the top. Depth images give their 32-bit floats.
 std::vector<std::byte> download(const Device& device, const Image& image);
@@ -113,9 +113,16 @@ Buffer createTexelsWith(const Device& device, const char* name, VkFormat format,
   return buffer;
 }
 
-template <typename T, typename Resource>
-std::vector<T> downloadAs(const Device& device, const Resource& resource) {
-  const std::vector<std::byte> bytes = download(device, resource);
+// `count` values, or all.
+template <typename T>
+std::vector<T> downloadAs(const Device& device, const Buffer& buffer, std::optional<size_t> count = {}) {
+  std::vector<T> values(count.value_or(buffer.size() / sizeof(T)));
+  download(device, buffer, std::as_writable_bytes(std::span(values)));
+  return values;
+}
+template <typename T>
+std::vector<T> downloadAs(const Device& device, const Image& image) {
+  const std::vector<std::byte> bytes = download(device, image);
   std::vector<T> values(bytes.size() / sizeof(T));
   std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
   return values;

@@ -5,6 +5,9 @@
 #include "shadow/parameterization.h"
 #include "truth/visibility.h"
 
+#include <memory>
+#include <vector>
+
 namespace gnomon {
 
 struct GroundTruth {
@@ -12,10 +15,21 @@ struct GroundTruth {
   LightModel light;  // as it is traced
   Receivers receivers;
   Truth truth;
-  double ms = 0.0;  // wall clock of both
+  double ms = 0.0;  // wall clock of both, and of the view's surfaces where they were not known
 };
 // Nothing may be scored.
 GroundTruth traceGroundTruth(const SceneView& view, const Light& source, const LightModel& light);
+
+// The ground truths of a view, each traced once: maps that take a light alike have one in common.
+class GroundTruths {
+ public:
+  std::shared_ptr<const GroundTruth> of(const SceneView& view, const Light& source, const LightModel& light);
+  size_t tracedCount() const { return tracedCount_; }
+
+ private:
+  std::vector<std::shared_ptr<const GroundTruth>> kept_;  // the last ones first
+  size_t tracedCount_ = 0;
+};
 
 // The scene's first light of a kind that the map is made for, else the first that it can make do with; null where
 // there is none.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -46,6 +47,10 @@ void addWalks(WalkCounts& counts, const glsl::PixelDiagnosis& pixel) {
 
 }  // namespace
 
+bool Method::operator==(const Method& other) const {
+  return bias == other.bias && std::memcmp(&params, &other.params, sizeof params) == 0;
+}
+
 Method atDefaults(const BiasMethod& bias, const SceneView& view) {
   return {.bias = &bias, .params = defaultBiasParams(bias, view.sceneScale())};
 }
@@ -54,6 +59,13 @@ Verdict verdictOf(const glsl::PixelDiagnosis& pixel) {
   if ((pixel.flags & glsl::kPixelShaded) == 0) return Verdict::NotAsked;
   if ((pixel.flags & glsl::kPixelCovered) == 0) return Verdict::Uncovered;
   return (pixel.flags & glsl::kPixelLit) != 0 ? Verdict::Lit : Verdict::Shadow;
+}
+
+float visibilityOf(const glsl::PixelDiagnosis& pixel, bool empty) {
+  if ((pixel.flags & glsl::kPixelShaded) == 0) return empty ? 1.0f : 0.0f;
+  if ((pixel.flags & glsl::kPixelUnknown) != 0) return glsl::kUnknownVisibility;
+  const uint32_t lit = glsl::kPixelCovered | glsl::kPixelLit;
+  return (pixel.flags & lit) == glsl::kPixelCovered ? 0.0f : 1.0f;
 }
 
 RayD texelRayW(const FittedMap& fitted, uint32_t texelWord) {
@@ -83,7 +95,7 @@ LightOnMap::LightOnMap(const LightOnMap& other, MapSetup setup)
 }
 
 const GroundTruth& LightOnMap::groundTruth() const {
-  if (!truth_) truth_ = std::make_shared<const GroundTruth>(traceGroundTruth(view_, source_, light_));
+  if (!truth_) truth_ = view_.groundTruths().of(view_, source_, light_);
   return *truth_;
 }
 
@@ -133,6 +145,10 @@ double LightOnMap::timeLookup(const Method& method, const ShadowLookup& lookup) 
   return commands.submitAndWait().wallMs;
 }
 
+void LightOnMap::warmUp(const Method& method, const ChosenFilter& filter) {
+  timeLookup(method, {.bias = *method.bias, .filter = filter, .oneGroup = true});
+}
+
 double LightOnMap::timeVisibility(const Method& method, const ChosenFilter& filter) {
   return timeLookup(method, {.bias = *method.bias, .filter = filter});
 }
@@ -142,7 +158,44 @@ std::vector<float> LightOnMap::visibility(const Method& method, const ChosenFilt
   return gpu::downloadAs<float>(view_.device(), passes_.visibility.visibility());
 }
 
+void LightOnMap::expect(std::vector<Method> methods) {
+  expected_ = std::move(methods);
+  decided_.clear();
+}
+
+std::optional<std::vector<glsl::PixelDiagnosis>> LightOnMap::diagnoseTogether(const Method& method) {
+  const auto indexIn = [&](const std::vector<Method>& methods) {
+    return static_cast<size_t>(std::ranges::find(methods, method) - methods.begin());
+  };
+  const ChannelSet channels = method.bias->channels;
+  if (const auto known = decided_.find(channels); known != decided_.end()) {
+    const size_t slot = indexIn(known->second.methods);
+    if (slot < known->second.methods.size()) return known->second.decisions.of(slot);
+  }
+  std::vector<Method> group;
+  std::vector<const BiasMethod*> biases;
+  for (size_t i = indexIn(expected_); i < expected_.size(); ++i) {
+    if (!decidedTogether(*method.bias, *expected_[i].bias)) continue;
+    group.push_back(expected_[i]);
+    biases.push_back(expected_[i].bias);
+  }
+  if (group.size() < 2) return std::nullopt;
+  group.resize(passes_.decisions.mostOf(biases));
+  biases.resize(group.size());
+  std::vector<glsl::BiasParams> params;
+  for (const Method& one : group) params.push_back(one.params);
+  const Occluders& drawn = occluders(channels);
+  gpu::Commands commands(view_.device(), "decisions");
+  if (!drawn.recordDecisions(commands, view_.buffers(), view_.gbuffer(), passes_.decisions, biases, params,
+                             shadeUniforms(view_.view(), light_, {})))
+    return std::nullopt;
+  commands.submitAndWait();
+  const Decided made{std::move(group), passes_.decisions.download(biases)};
+  return decided_.insert_or_assign(channels, made).first->second.decisions.of(0);
+}
+
 std::vector<glsl::PixelDiagnosis> LightOnMap::diagnose(const Method& method) {
+  if (auto diagnosis = diagnoseTogether(method)) return std::move(*diagnosis);
   timeLookup(method, {.bias = *method.bias, .diagnose = true});
   return gpu::downloadAs<glsl::PixelDiagnosis>(view_.device(), passes_.visibility.diagnosis());
 }
@@ -150,9 +203,11 @@ std::vector<glsl::PixelDiagnosis> LightOnMap::diagnose(const Method& method) {
 LabelledResult LightOnMap::judge(const Method& method) {
   const std::vector<glsl::PixelDiagnosis> diagnosis = diagnose(method);
   LabelledResult result;
-  result.visibility = gpu::downloadAs<float>(view_.device(), passes_.visibility.visibility());
+  result.visibility.resize(diagnosis.size());
   result.verdicts.resize(diagnosis.size());
+  const std::span<const glsl::PrimitiveId> seen = view_.primitiveIds();
   for (size_t i = 0; i < diagnosis.size(); ++i) {
+    result.visibility[i] = visibilityOf(diagnosis[i], seen[i].instancePlusOne == 0);
     result.verdicts[i] = verdictOf(diagnosis[i]);
     if (receivers().states[i] != PixelState::Scored) continue;
     if ((diagnosis[i].flags & glsl::kPixelGrazing) != 0) ++result.grazing;

@@ -26,6 +26,7 @@ namespace gnomon {
 struct Method {
   const BiasMethod* bias = nullptr;
   glsl::BiasParams params{};
+  bool operator==(const Method& other) const;
 };
 Method atDefaults(const BiasMethod& bias, const SceneView& view);
 
@@ -59,6 +60,8 @@ struct LabelledResult {
 };
 
 Verdict verdictOf(const glsl::PixelDiagnosis& pixel);
+// What the visibility pass writes of an unfiltered pixel. `empty`: there is no surface.
+float visibilityOf(const glsl::PixelDiagnosis& pixel, bool empty);
 
 // The light ray through the centre of the texel that decided a pixel, in the world. `texelWord`: PixelDiagnosis::texel.
 RayD texelRayW(const FittedMap& fitted, uint32_t texelWord);
@@ -101,11 +104,16 @@ class LightOnMap {
 
   // One value a pixel, through a filter.
   std::vector<float> visibility(const Method& method, const ChosenFilter& filter = glsl::kShadowFilterNone);
+  // Compiles what timeVisibility() runs: drivers put that off to the first pixel.
+  void warmUp(const Method& method, const ChosenFilter& filter = glsl::kShadowFilterNone);
   double timeVisibility(const Method& method,
                         const ChosenFilter& filter = glsl::kShadowFilterNone);  // wall clock, milliseconds
   // Of the unfiltered map: how each pixel was decided, and by which texel.
   std::vector<glsl::PixelDiagnosis> diagnose(const Method& method);
   LabelledResult judge(const Method& method);
+  // What diagnose() and judge() will be asked for next. Methods that one dispatch can decide (DecisionPass) are decided
+  // together when the first of them is asked for; the bits are the same.
+  void expect(std::vector<Method> methods);
 
   // The truth through a filter (filtered_truth.h), and texels a square metre of each pixel's surface (texel_density.h).
   std::vector<float> filteredTruth(const ChosenFilter& filter) const;
@@ -130,7 +138,13 @@ class LightOnMap {
     double ms = 0.0;
   };
   const Fit& fit() const;
+  struct Decided {
+    std::vector<Method> methods;
+    Decisions decisions;
+  };
   double timeLookup(const Method& method, const ShadowLookup& lookup);
+  // By `decided_`, to which those are added that are expected beside it; none: it has to be decided alone.
+  std::optional<std::vector<glsl::PixelDiagnosis>> diagnoseTogether(const Method& method);
   glsl::ShadeUniforms exposedUniforms(const Exposure& exposure, const glsl::BiasParams& params) const;
 
   const SceneView& view_;
@@ -142,6 +156,8 @@ class LightOnMap {
   mutable std::shared_ptr<const GroundTruth> truth_;
   mutable std::optional<Fit> fit_;
   std::map<ChannelSet, std::unique_ptr<Occluders>> occluders_;
+  std::vector<Method> expected_;
+  std::map<ChannelSet, Decided> decided_;  // the last ones
 };
 
 }  // namespace gnomon

@@ -1,6 +1,7 @@
 #include "judge/scene_view.h"
 
 #include "base/error.h"
+#include "judge/ground_truth.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,8 @@ SceneView::SceneView(std::shared_ptr<const gpu::Device> device, std::shared_ptr<
       buffers_(std::move(buffers)),
       camera_(camera),
       view_(cameraView(camera, width, height)),
-      gbuffer_(std::make_unique<GBuffer>(*device_, width, height)) {
+      gbuffer_(std::make_unique<GBuffer>(*device_, width, height)),
+      groundTruths_(std::make_unique<GroundTruths>()) {
   timeGBuffer();
   ids_ = downloadPrimitiveIds(*device_, *gbuffer_, *buffers_);
 }
@@ -44,6 +46,14 @@ SceneView::SceneView(std::shared_ptr<const gpu::Device> device, std::shared_ptr<
 
 SceneView::SceneView(const SceneView& other, const Camera& camera)
     : SceneView(other.device_, other.traced_, other.buffers_, camera, other.view_.width, other.view_.height) {}
+
+SceneView::SceneView(SceneView&&) noexcept = default;
+SceneView::~SceneView() = default;
+
+const SurfaceSamples& SceneView::surfaces() const {
+  if (!surfaces_) surfaces_ = computeSurfaces(tracer(), view_, ids_);
+  return *surfaces_;
+}
 
 float SceneView::sceneScale() const {
   return computeBounds(scene()).diagonal();

@@ -2,9 +2,11 @@
 // A scene on a device, seen by a camera: where rendering, ray tracing and labelling of one picture start.
 
 #include "scene/gbuffer.h"
+#include "truth/receivers.h"
 #include "truth/tracer.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +21,8 @@ struct TracedScene {
   const Tracer tracer;
 };
 
+class GroundTruths;
+
 class SceneView {
  public:
   // Uploads the scene and draws the G-buffer. `width` and `height` in pixels.
@@ -30,6 +34,8 @@ class SceneView {
             int height);
   // The same scene on the same device, seen by another camera.
   SceneView(const SceneView& other, const Camera& camera);
+  SceneView(SceneView&&) noexcept;
+  ~SceneView();
 
   const Scene& scene() const { return traced_->scene; }
   const Tracer& tracer() const { return traced_->tracer; }
@@ -40,6 +46,10 @@ class SceneView {
   const glsl::CameraView& view() const { return view_; }
   std::span<const glsl::PrimitiveId> primitiveIds() const { return ids_; }
   float sceneScale() const;  // the scene's diagonal, metres
+
+  // What the camera sees, in double: one for all lights. Computed when first asked for.
+  const SurfaceSamples& surfaces() const;
+  GroundTruths& groundTruths() const { return *groundTruths_; }  // ground_truth.h
 
   // Wall clock of drawing the G-buffer once more, milliseconds.
   double timeGBuffer() const;
@@ -55,6 +65,8 @@ class SceneView {
   glsl::CameraView view_{};
   std::unique_ptr<GBuffer> gbuffer_;
   std::vector<glsl::PrimitiveId> ids_;
+  mutable std::optional<SurfaceSamples> surfaces_;
+  std::unique_ptr<GroundTruths> groundTruths_;
 };
 
 }  // namespace gnomon

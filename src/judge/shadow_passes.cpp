@@ -3,7 +3,11 @@
 namespace gnomon {
 
 ShadowPasses::ShadowPasses(const gpu::Device& device, int width, int height)
-    : maps(device), visibility(device, width, height), radiance(device, width, height), frame(device, width, height) {}
+    : maps(device),
+      visibility(device, width, height),
+      decisions(device, width, height),
+      radiance(device, width, height),
+      frame(device, width, height) {}
 
 ShadowPasses::ShadowPasses(const SceneView& view)
     : ShadowPasses(view.device(), view.view().width, view.view().height) {}

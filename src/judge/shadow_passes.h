@@ -4,6 +4,7 @@
 
 #include "base/image.h"
 #include "judge/scene_view.h"
+#include "shadow/decision_pass.h"
 #include "shadow/frame_pass.h"
 #include "shadow/visibility_pass.h"
 
@@ -12,6 +13,7 @@ namespace gnomon {
 struct ShadowPasses {
   MapRenderer maps;
   VisibilityPass visibility;
+  DecisionPass decisions;  // instead of it, where several methods of one map are judged
   RadiancePass radiance;
   FramePass frame;  // instead of the two before it, where one method is asked for
 

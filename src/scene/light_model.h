@@ -11,6 +11,8 @@ struct LightModel {
   glm::dvec3 positionW{0.0};        // point, spot
   glm::dvec3 directionW{0, -1, 0};  // unit; spot: the axis
   double outerConeRad = 0.0;        // spot: half angle; pixels outside are dark and not scored
+
+  bool operator==(const LightModel&) const = default;
 };
 
 }  // namespace gnomon

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "shadow/decision_pass.h"
 #include "shadow/frame_pass.h"
 #include "shadow/slice_culling.h"
 #include "shadow/visibility_pass.h"
@@ -157,6 +158,13 @@ void MapImage::recordDrawing(gpu::Commands& commands, const MapRenderer& rendere
 void MapImage::recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                                 VisibilityPass& pass, const ShadowLookup& lookup) const {
   pass.record(commands, scene, gbuffer, *this, lookup);
+}
+
+bool MapImage::recordDecisions(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+                               DecisionPass& pass, std::span<const BiasMethod* const> biases,
+                               std::span<const glsl::BiasParams> params, const glsl::ShadeUniforms& shade) const {
+  pass.record(commands, scene, gbuffer, *this, biases, params, shade);
+  return true;
 }
 
 bool MapImage::recordFrame(gpu::Commands& commands, const SceneBuffers& scene, FramePass& pass,

@@ -37,6 +37,9 @@ class MapImage final : public Occluders {
                      const LightModel& light, CullMode cull) override;
   void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                         VisibilityPass& pass, const ShadowLookup& lookup) const override;
+  bool recordDecisions(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, DecisionPass& pass,
+                       std::span<const BiasMethod* const> biases, std::span<const glsl::BiasParams> params,
+                       const glsl::ShadeUniforms& shade) const override;
   bool recordFrame(gpu::Commands& commands, const SceneBuffers& scene, FramePass& pass, const ShadowLookup& lookup,
                    const glsl::ShadeUniforms& shade) const override;
   const gpu::Image& depth() const override { return image(glsl::kChannelDepth); }

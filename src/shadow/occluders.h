@@ -10,11 +10,13 @@
 
 #include "shared/shade.glsl"
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace gnomon {
 
+class DecisionPass;
 class FramePass;
 class MapRenderer;
 class VisibilityPass;
@@ -36,6 +38,7 @@ struct ShadowLookup {
   bool diagnose = false;  // also which texel decided each pixel, and how; without a filter only
   // Of one picture: in one dispatch, whose pipeline compiles sooner than several that would take less time together.
   bool once = false;
+  bool oneGroup = false;  // a corner of the picture only: so that pipelines are compiled
 };
 
 class Occluders {
@@ -53,6 +56,14 @@ class Occluders {
   // The visibility of each pixel, into the buffers of `pass`. The parameterization must support bias and filter.
   virtual void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
                                 VisibilityPass& pass, const ShadowLookup& lookup) const = 0;
+
+  // What several biases say of each pixel, in one dispatch of `pass` (DecisionPass::record). False where these
+  // occluders have no such pass, and nothing is recorded.
+  virtual bool recordDecisions(gpu::Commands&, const SceneBuffers&, const GBuffer&, DecisionPass&,
+                               std::span<const BiasMethod* const>, std::span<const glsl::BiasParams>,
+                               const glsl::ShadeUniforms&) const {
+    return false;
+  }
 
   // The whole picture, visibility and shading, in one pass. False where these
   // occluders have no such pass, and nothing is recorded.

@@ -16,6 +16,17 @@ namespace gnomon {
 glsl::ShadeUniforms shadeUniforms(const glsl::CameraView& camera, const LightModel& light,
                                   const glsl::BiasParams& bias);
 
+// Of a pass that looks pixels up in a map: of the scene, the G-buffer and the map. `noIds`: bound where a map has none.
+std::vector<gpu::Binding> lookupBindings(const SceneBuffers& scene, const GBuffer& gbuffer, const MapImage& map,
+                                         const gpu::Image& noIds);
+gpu::Image createNoIds(const gpu::Device& device);
+// Throws WorldError that names a user's file and line where that does not compile.
+gpu::ComputeProgram createLookupProgram(const gpu::Device& device, const char* shader, const UserBias* user,
+                                        const std::vector<gpu::Specialization>& constants);
+
+// Work groups of kShadeGroupSide^2 for a picture of so many pixels.
+glm::uvec3 shadeGroups(int width, int height);
+
 class VisibilityPass {
  public:
   VisibilityPass(const gpu::Device& device, int width, int height);
@@ -31,10 +42,14 @@ class VisibilityPass {
   // Of other looks-up into these buffers (ShadowVolume), compiled at first use.
   const gpu::ComputePrograms& programs() const { return programs_; }
 
-  glm::uvec3 groupCount() const { return groupCount_; }  // of kShadeGroupSide^2, for the whole picture
+  // Of kShadeGroupSide^2.
+  glm::uvec3 groupsOf(const ShadowLookup& lookup) const { return lookup.oneGroup ? glm::uvec3(1) : groupCount_; }
   const gpu::Buffer& uniforms() const { return uniforms_; }
   const gpu::Buffer& visibility() const { return visibility_; }  // float a pixel; 1 lit, kUnknownVisibility
-  const gpu::Buffer& diagnosis() const { return diagnosis_; }    // glsl::PixelDiagnosis a pixel
+  // glsl::PixelDiagnosis a pixel, made at the first look-up that asks for it: a picture may be so large that a device
+  // holds the one and not the other.
+  const gpu::Buffer& diagnosisFor(const ShadowLookup& lookup);
+  const gpu::Buffer& diagnosis() const { return diagnosis_; }
 
  private:
   // Specialization constants of shade_visibility.comp.glsl, in the order of their ids.
@@ -63,14 +78,16 @@ class RadiancePass {
  public:
   RadiancePass(const gpu::Device& device, int width, int height);
 
-  // Reads the visibility buffer; writes linear rgb.
+  // Reads the visibility buffer; writes linear rgb, into a buffer that is made at the first use.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-              const gpu::Buffer& shadeUniforms, const gpu::Buffer& visibility) const;
+              const gpu::Buffer& shadeUniforms, const gpu::Buffer& visibility);
 
   const gpu::Buffer& radiance() const { return radiance_; }  // vec3 a pixel, tightly packed
 
  private:
+  const gpu::Device& device_;
   gpu::ComputePrograms programs_;
+  size_t pixelCount_;
   glm::uvec3 groupCount_;
   gpu::Buffer radiance_;
 };

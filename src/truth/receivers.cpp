@@ -32,18 +32,44 @@ double sideOfLight(const LightModel& light, const glm::dvec3& pointW, const glm:
 struct SeenTriangle {
   Primitive primitive;
   Triangle triangle;
-  glm::dvec3 normalW;  // unit, turned to the light's side
-  PixelState state;    // but for a spot light's cone
+  glm::dvec3 normalW;  // unit, turned to the eye's side
+  bool edgeOn;         // to the eye
 
-  SeenTriangle(const Primitive& seen, const glm::dvec3 corners[3], const LightModel& light, const glm::dvec3& eyeW)
+  SeenTriangle(const Primitive& seen, const glm::dvec3 corners[3], const glm::dvec3& eyeW)
       : primitive(seen), triangle(corners), normalW(triangle.normal()) {
     const double eyeSide = glm::dot(normalW, eyeW - corners[0]);
-    const double lightSide = sideOfLight(light, corners[0], normalW);
-    const bool away = eyeSide == 0.0 || lightSide == 0.0 || (eyeSide > 0.0) != (lightSide > 0.0);
-    state = away ? PixelState::FacingAway : PixelState::Scored;
-    if (lightSide < 0.0) normalW = -normalW;
+    edgeOn = eyeSide == 0.0;
+    if (eyeSide < 0.0) normalW = -normalW;
+  }
+  // But for a spot light's cone.
+  PixelState stateFor(const LightModel& light) const {
+    const bool away = edgeOn || !(sideOfLight(light, triangle.corners[0], normalW) > 0.0);
+    return away ? PixelState::FacingAway : PixelState::Scored;
   }
 };
+
+// Calls `at(pixel, x, seen, isNew)` for each pixel of a row that sees a surface, and `empty(pixel)` for the others.
+template <typename At, typename Empty>
+void forRow(const Tracer& tracer, const glsl::CameraView& camera, std::span<const glsl::PrimitiveId> ids, int y,
+            const At& at, const Empty& empty) {
+  const glm::dvec3 eyeW(camera.eyeW);
+  std::optional<SeenTriangle> seen;
+  for (int x = 0; x < camera.width; ++x) {
+    const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x);
+    if (ids[pixel].instancePlusOne == 0) {
+      empty(pixel);
+      continue;
+    }
+    const Primitive primitive{ids[pixel].instancePlusOne - 1, ids[pixel].triangle};
+    const bool isNew = !seen || !(seen->primitive == primitive);
+    if (isNew) {
+      glm::dvec3 corners[3];
+      tracer.corners(primitive, corners);
+      seen.emplace(primitive, corners, eyeW);
+    }
+    at(pixel, x, *seen, isNew);
+  }
+}
 
 bool isInCone(const LightModel& light, double cosOuterCone, const glm::dvec3& pointW) {
   return !(glm::dot(glm::normalize(pointW - light.positionW), light.directionW) < cosOuterCone);
@@ -72,41 +98,45 @@ RayD pixelRay(const glsl::CameraView& camera, int x, int y) {
   return {glm::dvec3(camera.eyeW), glm::normalize(dir)};
 }
 
-Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera, const LightModel& light,
-                           std::span<const glsl::PrimitiveId> ids) {
+SurfaceSamples computeSurfaces(const Tracer& tracer, const glsl::CameraView& camera,
+                               std::span<const glsl::PrimitiveId> ids) {
   const size_t pixelCount = static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height);
   GNOMON_CHECK_EQ(ids.size(), pixelCount);
-  Receivers receivers{.width = camera.width, .height = camera.height};
-  receivers.states.resize(pixelCount);
-  receivers.samples.resize(pixelCount);
+  PerPixel<SurfaceSample> samples(pixelCount);
   const glm::dvec3 eyeW(camera.eyeW);
   const PixelDirections directions(camera);
+  tbb::parallel_for(0, camera.height, [&](int y) {
+    forRow(
+        tracer, camera, ids, y,
+        [&](size_t pixel, int x, const SeenTriangle& seen, bool) {
+          const TriangleMeeting meeting = seen.triangle.meet(directions.ray(eyeW, x, y));
+          SurfaceSample& sample = samples[pixel];
+          sample.positionW = meeting.edgeOn ? seen.triangle.corners[0] : meeting.positionW;
+          sample.normalW = seen.normalW;
+          sample.primitive = seen.primitive;
+        },
+        [&](size_t pixel) { samples[pixel] = {}; });
+  });
+  return SurfaceSamples(std::move(samples));
+}
+
+Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera, const LightModel& light,
+                           std::span<const glsl::PrimitiveId> ids, const SurfaceSamples& surfaces) {
+  GNOMON_CHECK_EQ(ids.size(), surfaces.size());
+  Receivers receivers{.width = camera.width, .height = camera.height, .states = {}, .samples = surfaces};
+  receivers.states.resize(surfaces.size());
   const double cosOuterCone = std::cos(light.outerConeRad);
   tbb::parallel_for(0, camera.height, [&](int y) {
-    std::optional<SeenTriangle> seen;
-    for (int x = 0; x < camera.width; ++x) {
-      const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(camera.width) + static_cast<size_t>(x);
-      SurfaceSample& sample = receivers.samples[pixel];
-      if (ids[pixel].instancePlusOne == 0) {
-        sample = {};
-        continue;
-      }
-      const Primitive primitive{ids[pixel].instancePlusOne - 1, ids[pixel].triangle};
-      if (!seen || !(seen->primitive == primitive)) {
-        glm::dvec3 corners[3];
-        tracer.corners(primitive, corners);
-        seen.emplace(primitive, corners, light, eyeW);
-      }
-      const TriangleMeeting meeting = seen->triangle.meet(directions.ray(eyeW, x, y));
-      sample.positionW = meeting.edgeOn ? seen->triangle.corners[0] : meeting.positionW;
-      sample.normalW = seen->normalW;
-      sample.primitive = primitive;
-      PixelState state = seen->state;
-      if (state == PixelState::Scored && light.type == LightType::Spot &&
-          !isInCone(light, cosOuterCone, sample.positionW))
-        state = PixelState::OutsideCone;
-      receivers.states[pixel] = state;
-    }
+    PixelState state = PixelState::Empty;  // of the triangle that is seen
+    forRow(
+        tracer, camera, ids, y,
+        [&](size_t pixel, int, const SeenTriangle& seen, bool isNew) {
+          if (isNew) state = seen.stateFor(light);
+          const bool outside = state == PixelState::Scored && light.type == LightType::Spot &&
+                               !isInCone(light, cosOuterCone, surfaces[pixel].positionW);
+          receivers.states[pixel] = outside ? PixelState::OutsideCone : state;
+        },
+        [](size_t) {});
   });
   const auto count = [&](PixelState state) {
     return static_cast<size_t>(std::count(receivers.states.begin(), receivers.states.end(), state));
@@ -115,6 +145,11 @@ Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera,
   receivers.facingAway = count(PixelState::FacingAway);
   receivers.outsideCone = count(PixelState::OutsideCone);
   return receivers;
+}
+
+Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera, const LightModel& light,
+                           std::span<const glsl::PrimitiveId> ids) {
+  return computeReceivers(tracer, camera, light, ids, computeSurfaces(tracer, camera, ids));
 }
 
 }  // namespace gnomon

@@ -9,6 +9,7 @@
 
 #include "shared/scene.glsl"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,17 +22,28 @@ enum class PixelState : uint8_t {
   Scored,
 };
 
-struct SurfaceSample {
-  glm::dvec3 positionW{0.0};  // on the primitive: barycentric weights clamped to the triangle
-  glm::dvec3 normalW{0.0};    // unit, turned to the light's side
-  Primitive primitive;
+// One a pixel, meaningless where there is no surface. Copies share them: they depend on the camera, not on the light.
+class SurfaceSamples {
+ public:
+  SurfaceSamples() = default;
+  explicit SurfaceSamples(PerPixel<SurfaceSample> samples)
+      : owned_(std::make_shared<const PerPixel<SurfaceSample>>(std::move(samples))), seen_(*owned_) {}
+
+  size_t size() const { return seen_.size(); }
+  const SurfaceSample& operator[](size_t pixel) const { return seen_[pixel]; }
+  auto begin() const { return seen_.begin(); }
+  auto end() const { return seen_.end(); }
+
+ private:
+  std::shared_ptr<const PerPixel<SurfaceSample>> owned_;
+  std::span<const SurfaceSample> seen_;
 };
 
 struct Receivers {
   int width = 0;
   int height = 0;
-  std::vector<PixelState> states;   // one a pixel, rows from the top
-  PerPixel<SurfaceSample> samples;  // one a pixel; meaningless where Empty
+  std::vector<PixelState> states;  // one a pixel, rows from the top
+  SurfaceSamples samples;
   size_t scored = 0;
   size_t facingAway = 0;
   size_t outsideCone = 0;
@@ -41,6 +53,11 @@ struct Receivers {
 RayD pixelRay(const glsl::CameraView& camera, int x, int y);
 
 // `ids`: width*height G-buffer pixels. All cores.
+SurfaceSamples computeSurfaces(const Tracer& tracer, const glsl::CameraView& camera,
+                               std::span<const glsl::PrimitiveId> ids);
+// Of these surfaces, or of those that it computes first.
+Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera, const LightModel& light,
+                           std::span<const glsl::PrimitiveId> ids, const SurfaceSamples& surfaces);
 Receivers computeReceivers(const Tracer& tracer, const glsl::CameraView& camera, const LightModel& light,
                            std::span<const glsl::PrimitiveId> ids);
 

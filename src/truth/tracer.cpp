@@ -8,6 +8,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -74,14 +75,26 @@ struct Tracer::Impl {
   struct Query {
     RTCIntersectContext rtc = {};
     const Impl* impl = nullptr;
-    const RayD* ray = nullptr;                // firstHit
-    const ShadowSegment* segments = nullptr;  // shadow rays: indexed by the ray's id, as are the next two
-    const glm::dvec3* receivers = nullptr;    // the segments' ends
+    const RayD* ray = nullptr;  // firstHit
+    // Shadow rays, by the ray's id: segments and their ends, or from lightW to surfaces.
+    const ShadowSegment* segments = nullptr;
+    const glm::dvec3* ends = nullptr;
+    const SurfaceSample* const* surfaces = nullptr;
     double* heights = nullptr;
     double enough = 0.0;
     const double* distances = nullptr;  // to points in mid-air, whose rays start at lightW
     const glm::dvec3* pointsW = nullptr;
     glm::dvec3 lightW{0.0};
+
+    const Primitive& own(unsigned id) const { return segments != nullptr ? segments[id].own : surfaces[id]->primitive; }
+    const glm::dvec3& end(unsigned id) const { return segments != nullptr ? ends[id] : surfaces[id]->positionW; }
+    const glm::dvec3& planeNormal(unsigned id) const {
+      return segments != nullptr ? segments[id].planeNormal : surfaces[id]->normalW;
+    }
+    RayD rayTo(unsigned id) const {
+      if (segments != nullptr) return segments[id].ray;
+      return {lightW, glm::normalize(surfaces[id]->positionW - lightW)};
+    }
   };
 
   const Scene& scene;
@@ -106,6 +119,8 @@ struct Tracer::Impl {
   void putRay(const RayD& ray, double distance, const glm::dvec3& end, RTCRay16& rays, unsigned id) const;
   void traceOne(const ShadowSegment& segment, double enough, double& height) const;
   void tracePacket(std::span<const ShadowSegment> segments, double enough, double* heights) const;
+  void traceNear(const glm::dvec3& lightW, std::span<const SurfaceSample* const> receivers, double enough,
+                 double* heights) const;
   void tracePoints(const glm::dvec3& lightW, std::span<const glm::dvec3> pointsW, uint8_t* blocked) const;
   static void passHoles(const RTCFilterFunctionNArguments* args);
   static void judgeBlocker(const RTCFilterFunctionNArguments* args);
@@ -136,9 +151,8 @@ void Tracer::Impl::judgeBlocker(const RTCFilterFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;
     args->valid[i] = 0;
     const unsigned id = RTCRayN_id(args->ray, args->N, i);
-    const ShadowSegment& segment = query->segments[id];
     const Primitive primitive = hitPrimitive(args->hit, args->N, i);
-    if (primitive == segment.own) continue;
+    if (primitive == query->own(id)) continue;
     if (!triangle || !(primitive == last)) {
       glm::dvec3 at[3];
       query->impl->corners(primitive, at);
@@ -146,8 +160,8 @@ void Tracer::Impl::judgeBlocker(const RTCFilterFunctionNArguments* args) {
       last = primitive;
     }
     const TriangleMeeting meeting =
-        meetHit(segment.ray, *triangle, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
-    const double height = glm::dot(segment.planeNormal, meeting.positionW - query->receivers[id]);
+        meetHit(query->rayTo(id), *triangle, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
+    const double height = glm::dot(query->planeNormal(id), meeting.positionW - query->end(id));
     if (!(height > query->heights[id]) || query->impl->isHole(primitive, meeting.weights)) continue;
     query->heights[id] = height;
     if (height > query->enough) args->valid[i] = -1;
@@ -266,7 +280,7 @@ inline glm::vec3 Tracer::Impl::floatSpan(const RayD& ray, double distance, const
 
 void Tracer::Impl::traceOne(const ShadowSegment& segment, double enough, double& height) const {
   const glm::dvec3 receiver = segment.ray.origin + segment.ray.dir * segment.distance;
-  Query query{.impl = this, .segments = &segment, .receivers = &receiver, .heights = &height, .enough = enough};
+  Query query{.impl = this, .segments = &segment, .ends = &receiver, .heights = &height, .enough = enough};
   rtcInitIntersectContext(&query.rtc);
   glm::vec3 origin;
   const glm::vec3 dir = floatSpan(segment.ray, segment.distance, receiver, origin);
@@ -302,15 +316,42 @@ inline void Tracer::Impl::putRay(const RayD& ray, double distance, const glm::dv
 
 // Not flagged as coherent: with instances in the scene Embree 3.13.5's coherent packet path was seen not to return.
 void Tracer::Impl::tracePacket(std::span<const ShadowSegment> segments, double enough, double* heights) const {
-  glm::dvec3 receivers[kPacket];
-  Query query{.impl = this, .segments = segments.data(), .receivers = receivers, .heights = heights, .enough = enough};
+  glm::dvec3 ends[kPacket];
+  Query query{.impl = this, .segments = segments.data(), .ends = ends, .heights = heights, .enough = enough};
   rtcInitIntersectContext(&query.rtc);
   alignas(64) int valid[kPacket] = {};
   RTCRay16 rays = {};
   for (unsigned i = 0; i < segments.size(); ++i) {
-    receivers[i] = segments[i].ray.origin + segments[i].ray.dir * segments[i].distance;
+    ends[i] = segments[i].ray.origin + segments[i].ray.dir * segments[i].distance;
     valid[i] = -1;
-    putRay(segments[i].ray, segments[i].distance, receivers[i], rays, i);
+    putRay(segments[i].ray, segments[i].distance, ends[i], rays, i);
+  }
+  rtcOccluded16(valid, top.get(), &query.rtc, &rays);
+}
+
+// From a light that is no farther than floatOrigin() lets rays start where they are: the rays have their origin in
+// common, and of a lit one nothing else is worked out in double.
+void Tracer::Impl::traceNear(const glm::dvec3& lightW, std::span<const SurfaceSample* const> receivers, double enough,
+                             double* heights) const {
+  Query query{.impl = this, .surfaces = receivers.data(), .heights = heights, .enough = enough, .lightW = lightW};
+  rtcInitIntersectContext(&query.rtc);
+  const glm::vec3 origin(lightW);
+  alignas(64) int valid[kPacket] = {};
+  RTCRay16 rays = {};
+  for (unsigned i = 0; i < kPacket; ++i) {
+    rays.org_x[i] = origin.x;
+    rays.org_y[i] = origin.y;
+    rays.org_z[i] = origin.z;
+    rays.tfar[i] = 1.0f + kOvershoot;
+    rays.mask[i] = ~0u;
+    rays.id[i] = i;
+  }
+  for (unsigned i = 0; i < receivers.size(); ++i) {
+    const glm::vec3 dir(receivers[i]->positionW - glm::dvec3(origin));
+    rays.dir_x[i] = dir.x;
+    rays.dir_y[i] = dir.y;
+    rays.dir_z[i] = dir.z;
+    valid[i] = -1;
   }
   rtcOccluded16(valid, top.get(), &query.rtc, &rays);
 }
@@ -428,6 +469,23 @@ void Tracer::blockerHeights(std::span<const ShadowSegment> segments, double enou
   for (size_t i = 0; i < segments.size(); i += kPacket) {
     impl_->tracePacket(segments.subspan(i, std::min(kPacket, segments.size() - i)), enough, &heights[i]);
   }
+}
+
+void Tracer::blockerHeights(const glm::dvec3& lightW, std::span<const SurfaceSample* const> receivers, double enough,
+                            std::span<double> heights) const {
+  GNOMON_CHECK_EQ(receivers.size(), heights.size());
+  GNOMON_CHECK_LE(receivers.size(), kPacket);
+  if (glm::length(lightW - impl_->center) > 2.0 * impl_->radius) {
+    std::array<ShadowSegment, kPacket> segments;
+    for (size_t i = 0; i < receivers.size(); ++i) {
+      const glm::dvec3 towards = receivers[i]->positionW - lightW;
+      const double distance = glm::length(towards);
+      segments[i] = {{lightW, towards / distance}, distance, receivers[i]->primitive, receivers[i]->normalW};
+    }
+    return blockerHeights(std::span(segments).first(receivers.size()), enough, heights);
+  }
+  std::ranges::fill(heights, -std::numeric_limits<double>::infinity());
+  impl_->traceNear(lightW, receivers, enough, heights.data());
 }
 
 void Tracer::blockPoints(const glm::dvec3& lightW, std::span<const glm::dvec3> pointsW,

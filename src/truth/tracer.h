@@ -27,6 +27,13 @@ struct Primitive {
   bool operator==(const Primitive&) const = default;
 };
 
+// Where a pixel's ray meets its triangle.
+struct SurfaceSample {
+  glm::dvec3 positionW{0.0};  // on the primitive: barycentric weights clamped to the triangle
+  glm::dvec3 normalW{0.0};    // unit, turned to the camera's side; where the pixel is scored, that is the light's, too
+  Primitive primitive;
+};
+
 struct RayD {
   glm::dvec3 origin;  // W, metres
   glm::dvec3 dir;     // unit
@@ -72,6 +79,10 @@ class Tracer {
   // kPacket: neighbours should be alike.
   static constexpr size_t kPacket = 16;
   void blockerHeights(std::span<const ShadowSegment> segments, double enough, std::span<double> heights) const;
+
+  // The same from a light at a point to surfaces that face it, at most kPacket.
+  void blockerHeights(const glm::dvec3& lightW, std::span<const SurfaceSample* const> receivers, double enough,
+                      std::span<double> heights) const;
 
   // Whether a surface stands between a light and points in mid-air: one that a segment meets before its end,
   // as double has it. Writes 1 where one does. Traced in packets of kPacket: neighbours should be alike.

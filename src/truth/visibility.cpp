@@ -31,11 +31,11 @@ void prefetchSamples(const SurfaceSample* first) {
 }
 
 // Traces one tile's scored pixels.
-void traceTile(const Tracer& tracer, const LightRays& rays, const Receivers& receivers, int tileX, int tileY,
-               double margin, std::vector<uint8_t>& lit, Tally& tally) {
-  std::array<ShadowSegment, Tracer::kPacket> segments;
+void traceTile(const Tracer& tracer, const LightModel& light, const LightRays& rays, const Receivers& receivers,
+               int tileX, int tileY, double margin, std::vector<uint8_t>& lit, Tally& tally) {
+  std::array<const SurfaceSample*, Tracer::kPacket> surfaces;
   std::array<size_t, Tracer::kPacket> pixels;
-  std::array<double, Tracer::kPacket> heights;
+  std::array<double, Tracer::kPacket> heightsOf;
   size_t count = 0;
   for (int y = tileY; y < std::min(tileY + kTileSide, receivers.height); ++y) {
     const size_t row = static_cast<size_t>(y) * static_cast<size_t>(receivers.width);
@@ -44,13 +44,22 @@ void traceTile(const Tracer& tracer, const LightRays& rays, const Receivers& rec
     for (int x = tileX; x < std::min(tileX + kTileSide, receivers.width); ++x) {
       const size_t pixel = row + static_cast<size_t>(x);
       if (receivers.states[pixel] != PixelState::Scored) continue;
-      const SurfaceSample& sample = receivers.samples[pixel];
-      const LightRay towards = rays.towards(sample.positionW);
-      segments[count] = {towards.ray, towards.distance, sample.primitive, sample.normalW};
+      surfaces[count] = &receivers.samples[pixel];
       pixels[count++] = pixel;
     }
   }
-  tracer.blockerHeights({segments.data(), count}, 2.0 * margin, {heights.data(), count});
+  if (count == 0) return;
+  const std::span<double> heights = std::span(heightsOf).first(count);
+  if (light.type == LightType::Directional) {
+    std::array<ShadowSegment, Tracer::kPacket> segments;
+    for (size_t i = 0; i < count; ++i) {
+      const LightRay towards = rays.towards(surfaces[i]->positionW);
+      segments[i] = {towards.ray, towards.distance, surfaces[i]->primitive, surfaces[i]->normalW};
+    }
+    tracer.blockerHeights(std::span(segments).first(count), 2.0 * margin, heights);
+  } else {
+    tracer.blockerHeights(light.positionW, std::span(surfaces).first(count), 2.0 * margin, heights);
+  }
   for (size_t i = 0; i < count; ++i) {
     const bool isLit = heights[i] <= margin;
     lit[pixels[i]] = isLit ? 1 : 0;
@@ -101,7 +110,7 @@ Truth computeTruth(const Tracer& tracer, const LightModel& light, const Receiver
   std::vector<Tally> tallies(static_cast<size_t>(tileRows));
   tbb::parallel_for(0, tileRows, [&](int row) {
     for (int x = 0; x < receivers.width; x += kTileSide)
-      traceTile(tracer, rays, receivers, x, row * kTileSide, truth.margin, truth.lit,
+      traceTile(tracer, light, rays, receivers, x, row * kTileSide, truth.margin, truth.lit,
                 tallies[static_cast<size_t>(row)]);
   });
   for (const Tally& tally : tallies) {

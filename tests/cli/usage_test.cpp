@@ -340,8 +340,8 @@ TEST_F(UsageTest, BenchIsAsSmallAsItIsAskedToBe) {
   for (const json& growth : bench.at("growth")) {
     const double most = growth.at("points").back().at("size").get<double>();
     const std::string size = growth.at("size");
-    EXPECT_TRUE(size != "map texels" || most == 6 * 32 * 32) << most;
-    EXPECT_TRUE(size != "pixels" || most == 64 * 64) << most;
+    EXPECT_TRUE(size != "map texels" || most == 6 * 64 * 64) << most;
+    EXPECT_TRUE(size != "pixels" || most == 128 * 128) << most;
   }
   expectMistake("bench contact --map-size 16 --map-texels 4096", 2, "excludes");
 }

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "lit_map.h"
 #include "omni/cube_map.h"
+#include "omni/paraboloid_map.h"
 #include "planar/planar_map.h"
 #include "vsv/volume_parameterization.h"
 
@@ -51,6 +52,36 @@ TEST_F(LightOnMapTest, ASpotKeepsItsDirectionAndItsCone) {
   EXPECT_EQ(lit.light().directionW, glm::dvec3(0, -1, 0));
   EXPECT_GT(lit.receivers().outsideCone, 100u);
   EXPECT_GT(lit.receivers().scored, 20u);
+}
+
+// What depends on the camera alone is found once for all lights, and a ground truth once for all maps that take a light
+// alike: a spot map of a point light traces one to aim by, which is the cube's, and one in its cone.
+TEST_F(LightOnMapTest, MapsAndLightsShareWhatIsTheSame) {
+  const SceneView seen(test::lent(device()), openScene("atrium"), 64, 64);
+  ShadowPasses passes(seen);
+  const Light* lamp = firstLightFor(seen.scene(), cubeParameterization());
+  ASSERT_NE(lamp, nullptr);
+  const LightOnMap cube(seen, passes, cubeParameterization(), *lamp, smallSetup());
+  const LightOnMap paraboloid(seen, passes, paraboloidParameterization(), *lamp, smallSetup());
+  const LightOnMap volume(seen, passes, volumeParameterization(), *lamp, smallSetup());
+  EXPECT_EQ(seen.groundTruths().tracedCount(), 0u);
+  EXPECT_GT(cube.receivers().scored, 1000u);
+  EXPECT_EQ(&cube.groundTruth(), &paraboloid.groundTruth());
+  EXPECT_EQ(&cube.groundTruth(), &volume.groundTruth());
+  EXPECT_EQ(seen.groundTruths().tracedCount(), 1u);
+
+  const LightOnMap spot(seen, passes, spotParameterization(), *lamp, smallSetup());
+  EXPECT_EQ(seen.groundTruths().tracedCount(), 1u);  // aimed by the cube's
+  EXPECT_NE(&spot.groundTruth(), &cube.groundTruth());
+  EXPECT_EQ(seen.groundTruths().tracedCount(), 2u);
+  Light other = *lamp;
+  other.name = "other";
+  other.positionW.y *= 0.5f;
+  const LightOnMap elsewhere(seen, passes, cubeParameterization(), other, smallSetup());
+  EXPECT_NE(elsewhere.truth().litCount, cube.truth().litCount);
+  EXPECT_EQ(seen.groundTruths().tracedCount(), 3u);
+  EXPECT_EQ(&elsewhere.receivers().samples[0], &cube.receivers().samples[0]);
+  EXPECT_EQ(&spot.receivers().samples[0], &cube.receivers().samples[0]);
 }
 
 TEST_F(LightOnMapTest, DrawingAgainGivesTheSameBits) {

@@ -102,7 +102,13 @@ TEST(Bench, EveryStageOfASceneIsTimedAgainstOneThatIsThere) {
   const Session session({}, {.scene = "contact", .size = "32"});
   BenchOptions options{.mapTexels = 6 * 32 * 32, .repeats = 1, .growth = false};
   options.mapOptions.set(kVolumeSize({.alpha = 64, .theta = 64, .phi = 128}));
-  const Bench bench = runBench(session, {}, options);
+  Bench bench = runBench(session, {}, options);
+  bench.growths.push_back({.size = "texels",
+                           .unit = "texels",
+                           .stages = {"in proportion to its square", "not at all"},
+                           .points = {{10.0, "10", {1.0, 7.0}, {5.0, 3.0}},
+                                      {100.0, "100", {2.0, 7.0}, {5.0, 3.0}},
+                                      {1000.0, "1000", {200.0, 7.0}, {50.0, 3.0}}}});
   EXPECT_GT(bench.stages.size(), 50u);
   EXPECT_FALSE(bench.start.has_value());
   const auto json = nlohmann::json::parse(benchJson(session, bench, "gnomon bench contact"));
@@ -121,8 +127,15 @@ TEST(Bench, EveryStageOfASceneIsTimedAgainstOneThatIsThere) {
   EXPECT_GT(compared, names.size() / 2);
   for (const char* name : {"baseline/forward", "frame/cube/adaptive", "limit/rtcOccluded16", "limit/device copy 64 MiB",
                            "map/cube/two layers", "map/paraboloid, vertex/one layer", "visibility/cube/adaptive",
-                           "volume/bits, one pass", "truth/exact shadow", "media/runs", "media/march 512 steps"})
+                           "volume/bits, one pass", "truth/exact shadow", "media/runs", "media/march 512 steps",
+                           "decisions/cube, 8 biases", "truth/receivers, of one light"})
     EXPECT_TRUE(names.contains(name)) << name;
+  const auto& growth = json["growth"][0];
+  EXPECT_NEAR(growth["exponents"][0].get<double>(), 2.0, 1e-9);
+  EXPECT_NEAR(growth["cpu_exponents"][0].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(growth["exponents"][1].get<double>(), 0.0, 1e-9);
+  EXPECT_EQ(growth["points"][2]["cpu_ms"][0], 50.0);
+  EXPECT_NE(benchTable(session, bench).find("2.00    1.00"), std::string::npos) << benchTable(session, bench);
 }
 
 }  // namespace

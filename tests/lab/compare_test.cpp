@@ -7,6 +7,8 @@
 #include "lab/picture/pictures.h"
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
+#include "scene/generate.h"
+#include "scene/gltf.h"
 #include "tests/gpu_fixture.h"
 #include "vsv/volume_parameterization.h"
 
@@ -72,6 +74,29 @@ TEST(Compare, TheSameCommandGivesTheSameBytes) {
   // A map: depth, second depth and gap as PNG and EXR, the truth twice. A row: four PNGs and the data.
   EXPECT_EQ(a.files.size(), 2u * (8 + 5 * biasMethods().size()));
   EXPECT_EQ(a.files, b.files);
+}
+
+// Two lights, three maps that take a point light as it is: a ground truth a light, not a map.
+TEST(Compare, TracesEachLightOnce) {
+  Scene scene = openScene(std::string("contact"));
+  scene.lights.resize(1);
+  scene.lights.front().type = LightType::Point;
+  scene.lights.push_back(scene.lights.front());
+  scene.lights.back().name = "second";
+  scene.lights.back().positionW += glm::vec3(0.3f, 0.1f, 0.2f);
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "two.glb";
+  saveGlb(scene, file);
+  const Session session({.validation = true}, {.scene = file, .light = "all", .size = "64"});
+  CompareOptions options;
+  options.maps = parseMaps("cube,paraboloid,vsv");
+  options.biases = parseBiases("constant,adaptive");
+  options.mapOptions.set(kVolumeSize({.alpha = 64, .theta = 64, .phi = 128}));
+  options.mapSide = 64;
+  options.repeats = 1;
+  const Comparison comparison = compare(session, options);
+  EXPECT_EQ(comparison.truths.size(), 6u);
+  EXPECT_EQ(session.groundTruths().tracedCount(), 2u);
 }
 
 TEST(Compare, ResultsFollowTheSchema) {
@@ -200,7 +225,7 @@ TEST(LabelPicture, PaintsEachLabelInItsOwnColor) {
   receivers.width = 8;
   receivers.height = 1;
   receivers.states.assign(8, PixelState::Scored);
-  receivers.samples.resize(8);
+  receivers.samples = SurfaceSamples(PerPixel<SurfaceSample>(8));
   Truth truth;
   truth.lit.assign(8, 1);
   truth.lit[7] = 0;

@@ -77,7 +77,7 @@ TEST(DensityPicture, RisesInLightnessWithTheDensityAndMarksWhatIsUncovered) {
   receivers.width = 600;
   receivers.height = 1;
   receivers.states.assign(600, PixelState::Scored);
-  receivers.samples.resize(600);
+  receivers.samples = SurfaceSamples(PerPixel<SurfaceSample>(600));
   std::vector<float> densities;
   for (int i = 0; i < 600; ++i) densities.push_back(std::pow(10.0f, 1.0f + 3.0f * static_cast<float>(i) / 599.0f));
   densities[300] = -1.0f;

@@ -4,6 +4,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -45,7 +46,6 @@ void put(RTCRay16& rays, size_t lane, const LightRay& light) {
   rays.dir_y[lane] = static_cast<float>(light.ray.dir.y);
   rays.dir_z[lane] = static_cast<float>(light.ray.dir.z);
   rays.tnear[lane] = 0.0f;
-  rays.tfar[lane] = static_cast<float>(light.distance) * kEnd;
   rays.time[lane] = 0.0f;
   rays.mask[lane] = ~0u;
   rays.id[lane] = 0;
@@ -57,13 +57,13 @@ void put(RTCRay16& rays, size_t lane, const LightRay& light) {
 struct BareRays::Impl {
   struct Packet {
     RTCRay16 rays;
+    alignas(64) float ends[kPacket];  // tfar before it is traced: all that Embree writes, and -infinity where blocked
     alignas(64) int valid[kPacket];
   };
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   size_t count = 0;
   std::vector<Packet> packets;
-  std::vector<Packet> traced;  // a ray that is blocked ends at -infinity
 
   ~Impl() {
     if (scene != nullptr) rtcReleaseScene(scene);
@@ -84,7 +84,9 @@ BareRays::BareRays(const Scene& scene, const LightModel& light, const Receivers&
     if (receivers.states[i] != PixelState::Scored) continue;
     const size_t lane = impl_->count++ % kPacket;
     if (lane == 0) impl_->packets.emplace_back();
-    put(impl_->packets.back().rays, lane, rays.towards(receivers.samples[i].positionW));
+    const LightRay ray = rays.towards(receivers.samples[i].positionW);
+    put(impl_->packets.back().rays, lane, ray);
+    impl_->packets.back().ends[lane] = static_cast<float>(ray.distance) * kEnd;
     impl_->packets.back().valid[lane] = -1;
   }
 }
@@ -92,20 +94,22 @@ BareRays::BareRays(const Scene& scene, const LightModel& light, const Receivers&
 BareRays::~BareRays() = default;
 
 double BareRays::trace() {
-  impl_->traced = impl_->packets;
   const auto start = std::chrono::steady_clock::now();
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, impl_->traced.size(), 64), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, impl_->packets.size(), 64), [&](const auto& range) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    for (size_t i = range.begin(); i < range.end(); ++i)
-      rtcOccluded16(impl_->traced[i].valid, impl_->scene, &context, &impl_->traced[i].rays);
+    for (size_t i = range.begin(); i < range.end(); ++i) {
+      Impl::Packet& packet = impl_->packets[i];
+      std::ranges::copy(packet.ends, packet.rays.tfar);
+      rtcOccluded16(packet.valid, impl_->scene, &context, &packet.rays);
+    }
   });
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 size_t BareRays::occluded() const {
   size_t blocked = 0;
-  for (const Impl::Packet& packet : impl_->traced)
+  for (const Impl::Packet& packet : impl_->packets)
     for (size_t lane = 0; lane < kPacket; ++lane)
       blocked += packet.valid[lane] != 0 && packet.rays.tfar[lane] < 0.0f ? 1 : 0;
   return blocked;

@@ -20,13 +20,13 @@
 
 namespace gnomon {
 
-namespace {
-
 double processorMs() {
   timespec time{};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
+
+namespace {
 
 // Of the same rounds.
 double medianRatio(const std::vector<double>& times, const std::vector<double>& base) {

@@ -15,6 +15,9 @@
 
 namespace gnomon {
 
+// Processor time of all threads of this process so far, milliseconds.
+double processorMs();
+
 // A stage that can be run again and again.
 struct TimedStage {
   std::string name;             // "map/cube/one layer"
@@ -45,8 +48,9 @@ struct Growth {
   std::vector<std::string> stages;
   struct Point {
     double size = 0.0;
-    std::string name;        // "512 x 512 x 512"
-    std::vector<double> ms;  // medians, one a stage
+    std::string name;           // "512 x 512 x 512"
+    std::vector<double> ms;     // medians, one a stage
+    std::vector<double> cpuMs;  // the same of the processor time of all threads; empty where it was not measured
   };
   std::vector<Point> points;  // by size
 };
@@ -90,6 +94,7 @@ class BenchStages {
   void addGBufferAndTruth();
   void addMaps();
   void addVisibility();
+  void addDecisions();
   void addVolumes();
   void addMedia();
   void add(std::string name, std::string ratioTo, std::function<double()> run);
@@ -105,8 +110,8 @@ std::vector<Growth> measureGrowth(const Session& session, const gpu::DeviceOptio
 StartTimes measureStart(const std::filesystem::path& program, const SetupOptions& setup);
 
 std::string benchTable(const Session& session, const Bench& bench);
-// {"gnomon": {...}, "scene": {...}, "stages": [{name, median_ms, min_ms, max_ms, ratio, ratio_to}], "growth":
-// [...], "start": {...}}
+// {"gnomon": {...}, "scene": {...}, "stages": [{name, median_ms, min_ms, max_ms, cpu_ms, ratio, cpu_ratio, ratio_to}],
+// "growth": [{size, unit, stages, exponents, cpu_exponents, points: [{size, name, ms, cpu_ms}]}], "start": {...}}
 std::string benchJson(const Session& session, const Bench& bench, const std::string& command);
 // The growths, milliseconds against size, both logarithmic: an SVG file's text. Empty where there are none.
 std::string growthSvg(const std::vector<Growth>& growths);

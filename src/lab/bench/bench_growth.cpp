@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "base/progress.h"
 #include "lab/bench/bench.h"
 #include "omni/cube_map.h"
@@ -15,7 +16,7 @@ namespace gnomon {
 
 namespace {
 
-constexpr int kMostRepeats = 3;  // a point of a curve needs less than a number in a table
+constexpr int kMostRepeats = 5;  // a point of a curve needs less than a number in a table
 
 struct Stage {
   std::string name;
@@ -29,17 +30,24 @@ class Curves {
         repeats_(std::min(repeats, kMostRepeats)) {}
 
   void addPoint(double size, std::string name, const std::vector<Stage>& stages) {
-    Growth::Point point{.size = size, .name = std::move(name), .ms = {}};
-    growth_.stages.clear();
+    Growth::Point point{.size = size, .name = std::move(name), .ms = {}, .cpuMs = {}};
+    std::vector<std::string> names;
     for (const Stage& stage : stages) {
       stage.run();
-      std::vector<double> times;
-      for (int i = 0; i < repeats_; ++i) times.push_back(stage.run());
-      growth_.stages.push_back(stage.name);
+      std::vector<double> times, cpuTimes;
+      for (int i = 0; i < repeats_; ++i) {
+        const double before = processorMs();
+        times.push_back(stage.run());
+        cpuTimes.push_back(processorMs() - before);
+      }
+      names.push_back(stage.name);
       point.ms.push_back(median(times));
+      point.cpuMs.push_back(median(cpuTimes));
     }
+    growth_.stages = std::move(names);
     growth_.points.push_back(std::move(point));
   }
+  size_t pointCount() const { return growth_.points.size(); }
   Growth take() { return std::move(growth_); }
 
  private:
@@ -90,25 +98,31 @@ Growth withTriangles(const gpu::DeviceOptions& device, const BenchOptions& optio
   return curves.take();
 }
 
-// A quarter of a side to twice it.
+// A quarter of a side to four times it.
 std::vector<int64_t> sidesAround(int64_t side) {
-  return {std::max<int64_t>(side / 4, 2), std::max<int64_t>(side / 2, 4), std::max<int64_t>(side, 8), 2 * side};
+  return {std::max<int64_t>(side / 4, 2), std::max<int64_t>(side / 2, 4), std::max<int64_t>(side, 8), 2 * side,
+          4 * side};
 }
 
 Growth withMapSize(const Session& session, const BenchOptions& options) {
   Curves curves("map texels", "texels of all slices", options.repeats);
   const auto cubeSide = std::lround(std::sqrt(static_cast<double>(options.mapTexels) / 6.0));
-  for (const int64_t side : sidesAround(std::clamp<int64_t>(cubeSide, 8, 4096))) {
-    const int64_t texels = 6 * side * side;
-    const int paraboloidSide = static_cast<int>(std::lround(std::sqrt(static_cast<double>(texels) / 2.0)));
-    Subject cube(session, cubeParameterization(), static_cast<int>(side), options);
-    Subject paraboloid(session, paraboloidParameterization(), paraboloidSide, options);
-    curves.addPoint(static_cast<double>(texels), fmt::format("{}", texels),
-                    {{"cube, one layer", [&] { return cube.build(glsl::kChannelDepth); }},
-                     {"cube, two layers", [&] { return cube.build(kTwoLayers); }},
-                     {"paraboloid, one layer", [&] { return paraboloid.build(glsl::kChannelDepth); }},
-                     {"visibility, cube, constant", [&] { return cube.look("constant"); }},
-                     {"visibility, cube, adaptive", [&] { return cube.look("adaptive"); }}});
+  for (const int64_t side : sidesAround(std::clamp<int64_t>(cubeSide, 8, 2048))) {
+    try {
+      const int64_t texels = 6 * side * side;
+      const int paraboloidSide = static_cast<int>(std::lround(std::sqrt(static_cast<double>(texels) / 2.0)));
+      Subject cube(session, cubeParameterization(), static_cast<int>(side), options);
+      Subject paraboloid(session, paraboloidParameterization(), paraboloidSide, options);
+      curves.addPoint(static_cast<double>(texels), fmt::format("{}", texels),
+                      {{"cube, one layer", [&] { return cube.build(glsl::kChannelDepth); }},
+                       {"cube, two layers", [&] { return cube.build(kTwoLayers); }},
+                       {"paraboloid, one layer", [&] { return paraboloid.build(glsl::kChannelDepth); }},
+                       {"visibility, cube, constant", [&] { return cube.look("constant"); }},
+                       {"visibility, cube, adaptive", [&] { return cube.look("adaptive"); }}});
+    } catch (const WorldError&) {  // larger than the device can hold
+      if (curves.pointCount() < 2) throw;
+      break;
+    }
   }
   return curves.take();
 }
@@ -117,16 +131,21 @@ Growth withPictureSize(const Session& given, const gpu::DeviceOptions& device, c
   Curves curves("pixels", "pixels of the picture, square, cube of 6 x 512 x 512", options.repeats);
   const int64_t larger = std::max(given.view().width, given.view().height);
   for (const int64_t side : sidesAround(std::clamp<int64_t>(larger, 8, 4096))) {
-    SetupOptions setup = given.setup();
-    setup.size = fmt::format("{}", side);
-    const Session session(device, setup);
-    Subject cube(session, cubeParameterization(), 512, options);
-    curves.addPoint(static_cast<double>(side * side), setup.size,
-                    {{"gbuffer", [&] { return session.timeGBuffer(); }},
-                     {"visibility, constant", [&] { return cube.look("constant"); }},
-                     {"visibility, adaptive", [&] { return cube.look("adaptive"); }},
-                     {"visibility, dual", [&] { return cube.look("dual"); }},
-                     {"exact shadow", [&] { return cube.trace(); }}});
+    try {
+      SetupOptions setup = given.setup();
+      setup.size = fmt::format("{}", side);
+      const Session session(device, setup);
+      Subject cube(session, cubeParameterization(), 512, options);
+      curves.addPoint(static_cast<double>(side * side), setup.size,
+                      {{"gbuffer", [&] { return session.timeGBuffer(); }},
+                       {"visibility, constant", [&] { return cube.look("constant"); }},
+                       {"visibility, adaptive", [&] { return cube.look("adaptive"); }},
+                       {"visibility, dual", [&] { return cube.look("dual"); }},
+                       {"exact shadow", [&] { return cube.trace(); }}});
+    } catch (const WorldError&) {  // larger than the device can hold
+      if (curves.pointCount() < 2) throw;
+      break;
+    }
   }
   return curves.take();
 }

@@ -14,25 +14,26 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 // Cost of a stage as a power of the size, over the curve's upper half: 1 is in proportion to it.
-double exponentOf(const Growth& growth, size_t stage) {
+double exponentOf(const Growth& growth, size_t stage, std::vector<double> Growth::Point::*times) {
   if (growth.points.size() < 2) return 0.0;
   const Growth::Point& last = growth.points.back();
   const Growth::Point& middle = growth.points[(growth.points.size() - 1) / 2];
-  return std::log(last.ms[stage] / middle.ms[stage]) / std::log(last.size / middle.size);
+  return std::log((last.*times)[stage] / (middle.*times)[stage]) / std::log(last.size / middle.size);
 }
 
 std::string growthTable(const Growth& growth) {
   std::string text = fmt::format(
       "\n"
-      "scaling with {} ({}), ms\n"
+      "scaling with {} ({}), ms of wall clock; exponents over the upper half of the sizes\n"
       "{:<28}",
       growth.size, growth.unit, "");
   for (const Growth::Point& point : growth.points) text += fmt::format("{:>15}", point.name);
-  text += fmt::format("{:>10}\n", "exponent");
+  text += fmt::format("{:>10}{:>8}\n", "exponent", "of cpu");
   for (size_t stage = 0; stage < growth.stages.size(); ++stage) {
     text += fmt::format("{:<28}", growth.stages[stage]);
     for (const Growth::Point& point : growth.points) text += fmt::format("{:>15.2f}", point.ms[stage]);
-    text += fmt::format("{:>10.2f}\n", exponentOf(growth, stage));
+    text += fmt::format("{:>10.2f}{:>8.2f}\n", exponentOf(growth, stage, &Growth::Point::ms),
+                        exponentOf(growth, stage, &Growth::Point::cpuMs));
   }
   return text;
 }
@@ -155,9 +156,20 @@ std::string benchJson(const Session& session, const Bench& bench, const std::str
   for (const Growth& growth : bench.growths) {
     Json points = Json::array();
     for (const Growth::Point& point : growth.points)
-      points.push_back({{"size", point.size}, {"name", point.name}, {"ms", point.ms}});
-    json["growth"].push_back(
-        {{"size", growth.size}, {"unit", growth.unit}, {"stages", growth.stages}, {"points", points}});
+      points.push_back({{"size", point.size}, {"name", point.name}, {"ms", point.ms}, {"cpu_ms", point.cpuMs}});
+    std::vector<double> exponents, cpuExponents;
+    for (size_t stage = 0; stage < growth.stages.size(); ++stage) {
+      exponents.push_back(exponentOf(growth, stage, &Growth::Point::ms));
+      cpuExponents.push_back(exponentOf(growth, stage, &Growth::Point::cpuMs));
+    }
+    Json entry;
+    entry["size"] = growth.size;
+    entry["unit"] = growth.unit;
+    entry["stages"] = growth.stages;
+    entry["exponents"] = exponents;
+    entry["cpu_exponents"] = cpuExponents;
+    entry["points"] = points;
+    json["growth"].push_back(entry);
   }
   if (bench.start) json["start"] = {{"cold_ms", bench.start->coldMs}, {"warm_ms", bench.start->warmMs}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -181,6 +181,14 @@ void BenchStages::addGBufferAndTruth() {
   const LightOnMap& cube = maps_->named("cube").lit;
   maps_->bareRays = std::make_unique<BareRays>(session_.scene(), cube.light(), cube.receivers());
   add("limit/rtcOccluded16", kBaseVisibility, [this] { return maps_->bareRays->trace(); });
+  add("truth/surfaces", "limit/rtcOccluded16", [this] {
+    return millisecondsOf([&] { computeSurfaces(session_.tracer(), session_.view(), session_.primitiveIds()); });
+  });
+  add("truth/receivers, of one light", "limit/rtcOccluded16", [this, &cube] {
+    return millisecondsOf([&] {
+      computeReceivers(session_.tracer(), session_.view(), cube.light(), session_.primitiveIds(), session_.surfaces());
+    });
+  });
   add("truth/exact shadow", "limit/rtcOccluded16", [this, &cube] {
     return millisecondsOf([&] { computeTruth(session_.tracer(), cube.light(), cube.receivers()); });
   });
@@ -197,10 +205,30 @@ void BenchStages::addVisibility() {
   look("cube", "constant", filters().front());
   for (const BiasMethod& bias : biasMethods())
     if (std::string_view(bias.name) != "constant") look("cube", bias.name, filters().front());
+  addDecisions();
   for (const char* bias : {"constant", "adaptive", "dual"})
     for (size_t i = 1; i < filters().size(); ++i) look("cube", bias, filters()[i]);
   for (const Parameterization* map : otherMaps())
     for (const char* bias : {"constant", "adaptive", "dual"}) look(map->name(), bias, filters().front());
+}
+
+// What `compare` judges by: one bias and its diagnosis, and eight that share a dispatch.
+void BenchStages::addDecisions() {
+  LightOnMap& cube = maps_->named("cube").lit;
+  std::vector<Method> methods;
+  for (const BiasMethod& bias : biasMethods())
+    if (bias.channels == glsl::kChannelDepth && methods.size() < static_cast<size_t>(glsl::kMostTogether))
+      methods.push_back(atDefaults(bias, session_));
+  add("decisions/cube, constant", kBaseVisibility, [&cube, method = atDefaults(findBias("constant"), session_)] {
+    return millisecondsOf([&] { cube.diagnose(method); });
+  });
+  add(fmt::format("decisions/cube, {} biases", methods.size()), kBaseVisibility, [&cube, methods] {
+    return millisecondsOf([&] {
+      cube.expect(methods);
+      for (const Method& method : methods) cube.diagnose(method);
+      cube.expect({});
+    });
+  });
 }
 
 void BenchStages::addVolumes() {

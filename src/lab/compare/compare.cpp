@@ -155,6 +155,9 @@ class MapComparison {
     summary.texel = medianTexel();
     for (const Filter* filter : options_.filters) filteredTruth(*filter);
 
+    std::vector<Method> methods;
+    for (const BiasMethod* bias : options_.biases) methods.push_back(methodFor(lit_.view(), options_, *bias));
+    lit_.expect(methods);
     std::vector<Entry> entries;
     for (const BiasMethod* bias : options_.biases) {
       if (isInterrupted()) break;
@@ -323,8 +326,11 @@ class MapComparison {
         for (const auto& [channels, ms] : drawn) build[channels].push_back(ms);
       for (size_t i = 0; i < shade.size(); ++i) {
         const Method& method = entries[i / filterCount].method;
-        const double ms = lit_.timeVisibility(method, filterFor(options_, *options_.filters[i % filterCount]));
-        if (round >= 0) shade[i].push_back(ms);
+        const ChosenFilter filter = filterFor(options_, *options_.filters[i % filterCount]);
+        if (round < 0)
+          lit_.warmUp(method, filter);
+        else
+          shade[i].push_back(lit_.timeVisibility(method, filter));
       }
     }
     std::vector<double> noises;

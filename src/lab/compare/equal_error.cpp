@@ -85,10 +85,15 @@ void trySize(LightOnMap& lit, int step, const std::vector<SideSearch*>& searches
     const double drawn = lit.redraw(channels);
     if (round >= 0) build.push_back(drawn);
     for (size_t i = 0; i < searches.size(); ++i) {
-      const double ms = lit.timeVisibility(searches[i]->method());
-      if (round >= 0) shade[i].push_back(ms);
+      if (round < 0)
+        lit.warmUp(searches[i]->method());
+      else
+        shade[i].push_back(lit.timeVisibility(searches[i]->method()));
     }
   }
+  std::vector<Method> methods;
+  for (const SideSearch* search : searches) methods.push_back(search->method());
+  lit.expect(methods);
   sized.buildMs = median(build);
   for (size_t i = 0; i < searches.size(); ++i) {
     const size_t wrong = wrongPixels(lit, lit.diagnose(searches[i]->method()));

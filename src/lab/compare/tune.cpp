@@ -22,9 +22,12 @@ class KnobSearch {
       : evaluator_(evaluator), method_(method), knob_(knob), unit_(knob.defaultOfSceneScale ? sceneScale : 1.0f) {}
 
   Method best() {
-    for (int i = 0; i < kTuneGrid; ++i) errors(gridValue(i));
-    errors(knob_.lower);
-    errors(valueOf(method_.params, *method_.bias, knob_));
+    std::vector<float> values = {knob_.lower, valueOf(method_.params, *method_.bias, knob_)};
+    for (int i = 0; i < kTuneGrid; ++i) values.push_back(gridValue(i));
+    std::vector<Method> methods;
+    for (const float value : values) methods.push_back(with(value));
+    evaluator_.expect(methods);
+    for (const float value : values) errors(value);
     std::vector<std::pair<float, double>> points(seen_.begin(), seen_.end());
     const auto [first, last] = bestRun(points);
     float value = points[(first + last) / 2].first;
@@ -106,6 +109,10 @@ class KnobSearch {
 };
 
 }  // namespace
+
+void TuningEvaluator::expect(std::vector<Method> methods) {
+  if (!isFiltered()) lit_.expect(std::move(methods));
+}
 
 double TuningEvaluator::error(const Method& method) {
   throwIfInterrupted();

@@ -15,6 +15,8 @@ class TuningEvaluator {
       : lit_(lit), filter_(filter) {}
 
   bool isFiltered() const { return filter_.id != glsl::kShadowFilterNone; }
+  // What error() will be asked for next: without a filter they are decided together (LightOnMap::expect).
+  void expect(std::vector<Method> methods);
   // What the search minimizes: biasErrors, or rmse where there is a filter.
   double error(const Method& method);
   // Unfiltered pixels that the bias is answerable for: acne + leak.
