@@ -30,10 +30,38 @@ VkDeviceSize pixelBytes(int width, int height, size_t each) {
   return static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height) * each;
 }
 
-gpu::ComputeProgram createProgram(const gpu::Device& device, const UserBias* user,
-                                  const std::vector<gpu::Specialization>& constants) {
+const char* layoutOf(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R32_SFLOAT:
+      return "r32f";
+    case VK_FORMAT_R16_SFLOAT:
+      return "r16f";
+    case VK_FORMAT_R8_UNORM:
+      return "r8";
+    default:
+      throw WorldError(fmt::format("visibility in an image of VkFormat {}: make it R32_SFLOAT, R16_SFLOAT or R8_UNORM",
+                                   static_cast<int>(format)));
+  }
+}
+
+gpu::ShaderSource storingAs(gpu::ShaderSource source, VkFormat format) {
+  if (format != VK_FORMAT_UNDEFINED)
+    source.overrides["shadow/store_visibility.glsl"] = fmt::format(
+        "#include \"shared/shade.glsl\"\n"
+        "layout(binding = kBindVisibility, {}) uniform writeonly image2D visibilityImage;\n"
+        "void storeVisibility(ivec2 pixel, int width, float value) {{\n"
+        "  imageStore(visibilityImage, pixel, vec4(value));\n"
+        "}}\n",
+        layoutOf(format));
+  return source;
+}
+
+gpu::ComputeProgram createProgram(const gpu::Device& device, const UserBias* user, ReceiverKind receivers,
+                                  VkFormat stored, std::vector<gpu::Specialization> constants) {
+  constants.push_back(ReceiverPicture::constant(receivers));
   try {
-    return {device, shaderWith(kVisibilityShader, user), constants};
+    return {device, storingAs(ReceiverPicture::shader(shaderWith(kVisibilityShader, user), receivers), stored),
+            constants};
   } catch (const WorldError& error) {
     if (user == nullptr) throw;
     throw WorldError(inUsersWords(error.what(), *user));
@@ -57,14 +85,20 @@ glsl::ShadeUniforms shadeUniforms(const glsl::CameraView& camera, const LightMod
   return shade;
 }
 
-VisibilityPass::VisibilityPass(const gpu::Device& device, int width, int height)
+VisibilityPass::VisibilityPass(const gpu::Device& device, int width, int height, Output output)
     : device_(device),
       groupCount_(groupsFor(width, height)),
       uniforms_(
           device,
           {.name = "shade uniforms", .size = sizeof(glsl::ShadeUniforms), .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
-      visibility_(device, {.name = "visibility", .size = pixelBytes(width, height, sizeof(float))}),
-      diagnosis_(device, {.name = "diagnosis", .size = pixelBytes(width, height, sizeof(glsl::PixelDiagnosis))}),
+      receiverPicture_(device, {.name = "receiver picture",
+                                .size = sizeof(glsl::ReceiverPicture),
+                                .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
+      visibility_(device, {.name = "visibility",
+                           .size = output == Output::Buffers ? pixelBytes(width, height, sizeof(float)) : 0}),
+      diagnosis_(device,
+                 {.name = "diagnosis",
+                  .size = output == Output::Buffers ? pixelBytes(width, height, sizeof(glsl::PixelDiagnosis)) : 0}),
       walkers_(device, {.name = "walkers", .size = pixelBytes(width, height, sizeof(uint32_t))}),
       walkDispatches_(device, {.name = "walk dispatches",
                                .size = 2 * sizeof(glsl::WalkDispatch),
@@ -78,10 +112,27 @@ void VisibilityPass::setUniforms(const glsl::ShadeUniforms& uniforms) {
   witnessReach_ = uniforms.bias.witnessReach;
 }
 
+void VisibilityPass::recordUniforms(gpu::Commands& commands, const glsl::ShadeUniforms& uniforms,
+                                    const glsl::ReceiverPicture& meaning) {
+  commands.update(uniforms_, gpu::asPush(uniforms));
+  commands.update(receiverPicture_, gpu::asPush(meaning));
+  commands.barrier("the frame's numbers are written -> look-ups read them");
+  witnessReach_ = uniforms.bias.witnessReach;
+}
+
+gpu::ShaderSource VisibilityPass::storingIn(gpu::ShaderSource source, const gpu::Image* image) {
+  return storingAs(std::move(source), image != nullptr ? image->desc().format : VK_FORMAT_UNDEFINED);
+}
+
+gpu::Binding VisibilityPass::storage(const gpu::Image* image) const {
+  if (image != nullptr) return {glsl::kBindVisibility, *image};
+  return {glsl::kBindVisibility, visibility_};
+}
+
 const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
   for (const auto& variant : variants_)
     if (variant->key == key) return variant->program;
-  variants_.push_back(std::make_unique<Variant>(Variant{key, createProgram(device_, key.user,
+  variants_.push_back(std::make_unique<Variant>(Variant{key, createProgram(device_, key.user, key.receivers, key.stored,
                                                                            {{.id = 0, .value = key.method},
                                                                             {.id = 1, .value = key.diagnose},
                                                                             {.id = 2, .value = key.mapKind},
@@ -96,7 +147,30 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
   return variants_.back()->program;
 }
 
-void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+bool VisibilityPass::inStages(const ShadowLookup& lookup) {
+  return !lookup.once && lookup.bias.id == glsl::kBiasWitness && lookup.filter.id == glsl::kShadowFilterNone;
+}
+
+const gpu::ComputeProgram& VisibilityPass::programOf(const SceneBuffers& scene, ReceiverKind receivers,
+                                                     const MapImage& map, const ShadowLookup& lookup, int stage) {
+  const BiasMethod& method = lookup.bias;
+  const int reach = method.id == glsl::kBiasWitness ? witnessReach_ : 2;
+  return program({method.id, lookup.diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0,
+                  method.channels, lookup.filter.id, lookup.filter.tapCount, scene.masked ? 1 : 0, stage, reach,
+                  method.user, receivers, lookup.into != nullptr ? lookup.into->desc().format : VK_FORMAT_UNDEFINED});
+}
+
+void VisibilityPass::prepare(const SceneBuffers& scene, ReceiverKind receivers, const MapImage& map,
+                             const ShadowLookup& lookup) {
+  if (!inStages(lookup)) {
+    programOf(scene, receivers, map, lookup, glsl::kStageWhole);
+    return;
+  }
+  for (const int stage : {glsl::kStageLists, glsl::kStageWalks, glsl::kStageWalksAcross})
+    programOf(scene, receivers, map, lookup, stage);
+}
+
+void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, const ReceiverPicture& receivers,
                             const MapImage& map, const ShadowLookup& lookup) {
   const BiasMethod& method = lookup.bias;
   const ChosenFilter& filter = lookup.filter;
@@ -121,32 +195,36 @@ void VisibilityPass::record(gpu::Commands& commands, const SceneBuffers& scene, 
                                         {glsl::kBindIdChunks, scene.idChunks},
                                         {glsl::kBindTriangleFacts, scene.triangleFacts},
                                         {glsl::kBindMap, map.uniforms()},
-                                        {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
                                         {glsl::kBindShade, uniforms_},
-                                        {glsl::kBindVisibility, visibility_},
+                                        storage(lookup.into),
                                         {glsl::kBindDiagnosis, diagnosis_},
                                         {glsl::kBindWalkers, walkers_},
                                         {glsl::kBindWalkDispatch, walkDispatches_}};
+  receivers.bind(bindings, receiverPicture_);
   for (const Channel& channel : channels()) {
     const bool lacksIds = channel.format == VK_FORMAT_R32_UINT && (map.channels() & channel.bit) == 0;
     bindings.emplace_back(channel.binding, lacksIds ? noIds_ : map.imageOrAny(channel.bit));
   }
-  const int reach = method.id == glsl::kBiasWitness ? witnessReach_ : 2;
-  const auto programOf = [&](int stage) -> const gpu::ComputeProgram& {
-    return program({method.id, diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0, method.channels,
-                    filter.id, filter.tapCount, scene.masked ? 1 : 0, stage, reach, method.user});
+  // Of receivers that are not of Gnomon's own a shader does not read all.
+  const auto dispatch = [&](int stage, VkDeviceSize walks) {
+    const gpu::ComputeProgram& found = programOf(scene, receivers.kind(), map, lookup, stage);
+    const bool all = receivers.kind() == ReceiverKind::GBuffer;
+    const std::vector<gpu::Binding> read = all ? bindings : gpu::declaredBy(found, bindings);
+    if (stage == glsl::kStageWhole || stage == glsl::kStageLists)
+      commands.dispatch(found, groupCount_, gpu::asPush(push), read);
+    else
+      commands.dispatchIndirect(found, walkDispatches_, walks, gpu::asPush(push), read);
   };
-  if (lookup.once || method.id != glsl::kBiasWitness || filter.id != glsl::kShadowFilterNone) {
-    commands.dispatch(programOf(glsl::kStageWhole), groupCount_, gpu::asPush(push), bindings);
+  if (!inStages(lookup)) {
+    dispatch(glsl::kStageWhole, 0);
     return;
   }
   commands.fill(walkDispatches_, 1);
   commands.barrier("the list of walks is empty -> pixels are listed");
-  commands.dispatch(programOf(glsl::kStageLists), groupCount_, gpu::asPush(push), bindings);
+  dispatch(glsl::kStageLists, 0);
   commands.barrier("pixels are listed -> they walk");
-  commands.dispatchIndirect(programOf(glsl::kStageWalks), walkDispatches_, 0, gpu::asPush(push), bindings);
-  commands.dispatchIndirect(programOf(glsl::kStageWalksAcross), walkDispatches_, sizeof(glsl::WalkDispatch),
-                            gpu::asPush(push), bindings);
+  dispatch(glsl::kStageWalks, 0);
+  dispatch(glsl::kStageWalksAcross, sizeof(glsl::WalkDispatch));
 }
 
 RadiancePass::RadiancePass(const gpu::Device& device, int width, int height)
