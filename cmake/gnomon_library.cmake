@@ -20,13 +20,42 @@ if(GNOMON_SANITIZE)
   target_link_options(gnomon_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# For find_package(Gnomon).
+# For find_package(Gnomon): each library is a file of targets by itself, so that a component brings no other's packages.
 function(gnomon_install name)
   string(REPLACE gnomon_ "" export_name ${name})
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${export_name})
-  install(TARGETS ${name} EXPORT GnomonTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/gnomon)
+  install(TARGETS ${name} EXPORT Gnomon_${export_name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/gnomon)
+  install(EXPORT Gnomon_${export_name} NAMESPACE gnomon:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Gnomon)
 endfunction()
+
+# gnomon_needs(NAME ITEMS...): what a library links, for find_package and pkg-config: libraries of ours by their names, packages as
+# their targets say, and others as they stand on a linker's command line. Libraries are named after what they link.
+function(gnomon_needs name)
+  set(libraries "")
+  set(packages "")
+  set(flags "")
+  foreach(item IN LISTS ARGN)
+    if(item MATCHES "^gnomon_")
+      string(REPLACE gnomon_ "" library ${item})
+      list(APPEND libraries ${library})
+    elseif(item MATCHES "^([A-Za-z0-9_]+)::")
+      list(APPEND packages ${CMAKE_MATCH_1})
+    elseif(item STREQUAL embree)
+      list(APPEND packages embree)
+    else()
+      list(APPEND flags ${item})
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES packages)
+  string(REPLACE gnomon_ "" export_name ${name})
+  set_property(GLOBAL APPEND PROPERTY GNOMON_LIBRARIES ${export_name})
+  set_property(GLOBAL PROPERTY GNOMON_LIBRARIES_OF_${export_name} ${libraries})
+  set_property(GLOBAL PROPERTY GNOMON_PACKAGES_OF_${export_name} ${packages})
+  set_property(GLOBAL PROPERTY GNOMON_FLAGS_OF_${export_name} ${flags})
+endfunction()
+
 gnomon_install(gnomon_options)
+gnomon_needs(gnomon_options)
 
 # gnomon_headers(DIR FOLDER): links to the headers of the current folder, and of those below that are no library of their
 # own, as DIR/FOLDER; and what to install.
@@ -44,6 +73,17 @@ function(gnomon_headers dir folder)
       install(FILES ${entry} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/${folder})
     endif()
   endforeach()
+endfunction()
+
+# gnomon_archive(NAME OF LIBRARY LINKS ... SOURCES ...): further sources of a library's folder as an archive of their own,
+# where they stand on packages that who links the library alone should not have to have. Its headers are that folder's.
+function(gnomon_archive name)
+  cmake_parse_arguments(arg "" "OF" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_link_libraries(${name} PUBLIC ${arg_OF} ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS})
+  target_precompile_headers(${name} REUSE_FROM gnomon_base)
+  gnomon_install(${name})
+  gnomon_needs(${name} ${arg_OF} ${arg_LINKS} ${arg_PRIVATE_LINKS})
 endfunction()
 
 function(gnomon_library name)
@@ -64,6 +104,7 @@ function(gnomon_library name)
     target_precompile_headers(${name} REUSE_FROM gnomon_base)
   endif()
   gnomon_install(${name})
+  gnomon_needs(${name} gnomon_options ${arg_LINKS} ${arg_PRIVATE_LINKS})
 endfunction()
 
 # gnomon_unity(TARGET BATCH): compiles BATCH files of a target at a time, where reading CLI11 or JSON headers once a file

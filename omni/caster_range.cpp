@@ -1,10 +1,13 @@
 #include "omni/caster_range.h"
 
+#include "base/error.h"
+#include "base/parse.h"
 #include "planar/window.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -77,9 +80,33 @@ double nearestAxial(const Scene& scene, const glm::dvec3& lightW, double least, 
   return nearest;
 }
 
+std::optional<DepthEnds> parseRange(const std::string& flag, const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  const size_t comma = text.find(',');
+  const double zNear = parseNumber(text.substr(0, comma)).value_or(0.0);
+  const double zFar = comma == std::string::npos ? 0.0 : parseNumber(text.substr(comma + 1)).value_or(0.0);
+  if (!(zNear > 0.0 && zNear < zFar))
+    throw UsageError(fmt::format("{} {}: write NEAR,FAR in metres, 0 < NEAR < FAR, or auto", flag, text));
+  return DepthEnds{.zNear = zNear, .zFar = zFar};
+}
+
+std::string rangeText(const std::optional<DepthEnds>& ends) {
+  return ends ? fmt::format("{},{}", ends->zNear, ends->zFar) : "auto";
+}
+
 double distanceOf(const glm::dvec3& posL, Distance distance) {
   if (distance == Distance::Radial) return glm::length(posL);
   return std::max({std::abs(posL.x), std::abs(posL.y), std::abs(posL.z)});
+}
+
+double farthestCorner(const Bounds& bounds, const glm::dvec3& lightW, Distance distance) {
+  double farthest = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    const glm::dvec3 cornerW(i & 1 ? bounds.upper.x : bounds.lower.x, i & 2 ? bounds.upper.y : bounds.lower.y,
+                             i & 4 ? bounds.upper.z : bounds.lower.z);
+    farthest = std::max(farthest, distanceOf(cornerW - lightW, distance));
+  }
+  return farthest;
 }
 
 }  // namespace
@@ -95,13 +122,7 @@ double farthestReceiver(const Scene& scene, const glm::dvec3& lightW, Distance d
   double farthest = 0.0;
   for (const glm::dvec3& receiver : receiversW) farthest = std::max(farthest, distanceOf(receiver - lightW, distance));
   if (!receiversW.empty()) return farthest;
-  const Bounds bounds = computeBounds(scene);
-  for (int i = 0; i < 8; ++i) {
-    const glm::dvec3 cornerW(i & 1 ? bounds.upper.x : bounds.lower.x, i & 2 ? bounds.upper.y : bounds.lower.y,
-                             i & 4 ? bounds.upper.z : bounds.lower.z);
-    farthest = std::max(farthest, distanceOf(cornerW - lightW, distance));
-  }
-  return farthest;
+  return farthestCorner(computeBounds(scene), lightW, distance);
 }
 
 DepthEnds fitDepthEnds(const Scene& scene, const glm::dvec3& lightW, Distance distance,
@@ -110,6 +131,22 @@ DepthEnds fitDepthEnds(const Scene& scene, const glm::dvec3& lightW, Distance di
   const double farthest = std::max(farthestReceiver(scene, lightW, distance, receiversW), 2.0 * kLeastNear * scale);
   const double nearest = nearestCaster(scene, lightW, distance, kLeastNear * scale, farthest);
   return {.zNear = nearest * (1.0 - kEndSlack), .zFar = farthest * (1.0 + kEndSlack)};
+}
+
+DepthEnds depthEndsWithin(const Bounds& sceneBoundsW, const glm::dvec3& lightW, Distance distance, double zNear) {
+  return {.zNear = zNear,
+          .zFar = std::max(farthestCorner(sceneBoundsW, lightW, distance), 2.0 * zNear) * (1.0 + kEndSlack)};
+}
+
+constinit const WrittenOption<std::optional<DepthEnds>> kDepthRange(
+    {.name = "depth_range",
+     .sentence = "NEAR,FAR: ends of depth of a cube or a paraboloid; auto: the nearest caster, the farthest receiver",
+     .unit = "metres"},
+    std::nullopt, parseRange, rangeText);
+
+DepthEnds chosenDepthEnds(const FitInput& input, Distance distance) {
+  const std::optional<DepthEnds>& chosen = input.options.get(kDepthRange);
+  return chosen ? *chosen : fitDepthEnds(input.scene, input.light.positionW, distance, input.receiversW);
 }
 
 }  // namespace gnomon

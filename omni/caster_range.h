@@ -2,8 +2,9 @@
 // Distances from a point light to the nearest and the farthest caster: the near and far ends of maps that cover all
 // directions.
 
-#include "scene/scene.h"
+#include "shadow/parameterization.h"
 
+#include <optional>
 #include <span>
 
 #include <glm/glm.hpp>
@@ -26,8 +27,17 @@ double farthestReceiver(const Scene& scene, const glm::dvec3& lightW, Distance d
 // Both ends, kept clear of what they were fitted to.
 struct DepthEnds {
   double zNear = 0.0, zFar = 1.0;  // metres
+  bool operator==(const DepthEnds&) const = default;
 };
 DepthEnds fitDepthEnds(const Scene& scene, const glm::dvec3& lightW, Distance distance,
                        std::span<const glm::dvec3> receiversW);
+
+// Ends that a renderer chooses, without triangles or receivers: from its light's near distance to the farthest corner
+// of its scene's bounds.
+DepthEnds depthEndsWithin(const Bounds& sceneBoundsW, const glm::dvec3& lightW, Distance distance, double zNear);
+
+// The user's, of cubes and paraboloids; none: they are fitted.
+extern const WrittenOption<std::optional<DepthEnds>> kDepthRange;
+DepthEnds chosenDepthEnds(const FitInput& input, Distance distance);
 
 }  // namespace gnomon

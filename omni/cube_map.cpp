@@ -54,16 +54,14 @@ class CubeParameterization final : public Parameterization {
 
   FittedMap fit(const FitInput& input) const override {
     const CubeDepth depth = input.options.get(kCubeDepth);
-    const DepthEnds ends =
-        fitDepthEnds(input.scene, input.light.positionW,
-                     depth == CubeDepth::Radial ? Distance::Radial : Distance::Axial, input.receiversW);
+    const DepthEnds ends = chosenDepthEnds(input, depth == CubeDepth::Radial ? Distance::Radial : Distance::Axial);
     FittedMap fitted = makeCubeMap(input.light.positionW, depth, ends.zNear, ends.zFar, input.side,
                                    computeBounds(input.scene).diagonal());
     fitted.shaders.passes = input.options.get(kCubePasses);
     return fitted;
   }
 
-  std::vector<const MapOption*> options() const override { return {&kCubeDepth, &kCubePasses}; }
+  std::vector<const MapOption*> options() const override { return {&kCubeDepth, &kCubePasses, &kDepthRange}; }
   std::vector<Variant> variants(const MapOptions& given) const override {
     return {{"radial", given.with(kCubeDepth(CubeDepth::Radial))}};
   }

@@ -118,14 +118,16 @@ class ParaboloidParameterization final : public Parameterization {
 
   FittedMap fit(const FitInput& input) const override {
     const glm::dvec3& lightW = input.light.positionW;
-    const DepthEnds ends = fitDepthEnds(input.scene, lightW, Distance::Radial, input.receiversW);
+    const DepthEnds ends = chosenDepthEnds(input, Distance::Radial);
     const Axis& chosen = input.options.get(kParaboloidAxisW);
     const glm::dvec3 axisW = chosen ? glm::normalize(*chosen) : seamAvoidingAxis(lightW, input.receiversW);
     return makeParaboloidMap(lightW, axisW, input.options.get(kParaboloidRaster), ends.zNear, ends.zFar, input.side,
                              computeBounds(input.scene).diagonal());
   }
 
-  std::vector<const MapOption*> options() const override { return {&kParaboloidRaster, &kParaboloidAxisW}; }
+  std::vector<const MapOption*> options() const override {
+    return {&kParaboloidRaster, &kParaboloidAxisW, &kDepthRange};
+  }
   std::vector<Variant> variants(const MapOptions& given) const override {
     return {{"vertex", given.with(kParaboloidRaster(ParaboloidRaster::Vertex))},
             {"tessellated", given.with(kParaboloidRaster(ParaboloidRaster::Tessellated))}};

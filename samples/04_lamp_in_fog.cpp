@@ -7,6 +7,7 @@
 #include "judge/light_on_map.h"
 #include "scene/generate.h"
 #include "vsv/media/media_pass.h"
+#include "vsv/media/media_receivers.h"
 #include "vsv/volume_parameterization.h"
 
 #include <algorithm>

@@ -70,6 +70,19 @@ ShadowVolume::ShadowVolume(const gpu::Device& device, const FittedMap& columns)
                                   static_cast<VkDeviceSize>(grid().phiCount) * sizeof(float)}),
       source_(device, columns.occluderSource ? *columns.occluderSource : columns) {}
 
+void ShadowVolume::prepare(const MapRenderer& renderer, const SceneBuffers& scene) {
+  renderer.prepare(scene, source_);
+  renderer.programs().get("vsv/find_occluders.comp.glsl", {{.id = 0, .value = source_.kind()}});
+  renderer.programs().get("vsv/voxelize.comp.glsl", {{.id = 0, .value = glsl::kVoxelizeFused}});
+}
+
+void ShadowVolume::recordFit(gpu::Commands& commands, const FittedMap& columns) {
+  GNOMON_CHECK_EQ(columns.map.epipolar.alphaCount, grid().alphaCount);
+  GNOMON_CHECK_EQ(columns.occluderSource != nullptr, fitted().occluderSource != nullptr);
+  Occluders::recordFit(commands, columns);
+  source_.recordFit(commands, columns.occluderSource ? *columns.occluderSource : columns);
+}
+
 void ShadowVolume::recordDrawing(gpu::Commands& commands, const MapRenderer& renderer, const SceneBuffers& scene,
                                  const LightModel& light, CullMode cull) {
   commands.beginStage("volume source");
@@ -113,24 +126,33 @@ void ShadowVolume::recordBits(gpu::Commands& commands, const gpu::ComputeProgram
   voxelize(glsl::kVoxelizeScan);
 }
 
-void ShadowVolume::recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                                    VisibilityPass& pass, const ShadowLookup& lookup) const {
+void ShadowVolume::recordVisibility(gpu::Commands& commands, const SceneBuffers& scene,
+                                    const ReceiverPicture& receivers, VisibilityPass& pass,
+                                    const ShadowLookup& lookup) const {
   GNOMON_CHECK(lookup.bias.onVolumes);
   GNOMON_CHECK_EQ(lookup.filter.id, glsl::kShadowFilterNone);
-  const gpu::ComputeProgram& program =
-      pass.programs().get("vsv/shade_volume_visibility.comp.glsl", {{.id = 0, .value = lookup.bias.id},
-                                                                    {.id = 1, .value = lookup.diagnose ? 1 : 0},
-                                                                    {.id = 4, .value = scene.instanced ? 1 : 0}});
-  commands.dispatch(program, pass.groupsOf(lookup), {},
-                    {{glsl::kBindPositions, scene.positions},
-                     {glsl::kBindTriangles, scene.triangles},
-                     {glsl::kBindInstances, scene.instances},
-                     {glsl::kBindMap, uniforms()},
-                     {glsl::kBindBits, bits_},
-                     {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
-                     {glsl::kBindShade, pass.uniforms()},
-                     {glsl::kBindVisibility, pass.visibility()},
-                     {glsl::kBindDiagnosis, pass.diagnosisFor(lookup)}});
+  const gpu::ComputeProgram& program = visibilityProgram(scene, receivers.kind(), pass, lookup);
+  std::vector<gpu::Binding> bindings = {{glsl::kBindPositions, scene.positions},
+                                        {glsl::kBindTriangles, scene.triangles},
+                                        {glsl::kBindInstances, scene.instances},
+                                        {glsl::kBindMap, uniforms()},
+                                        {glsl::kBindBits, bits_},
+                                        {glsl::kBindShade, pass.uniforms()},
+                                        pass.storage(lookup.into),
+                                        {glsl::kBindDiagnosis, pass.diagnosisFor(lookup)}};
+  receivers.bind(bindings, pass.receiverPicture());
+  const bool all = receivers.kind() == ReceiverKind::GBuffer;
+  commands.dispatch(program, pass.groupsOf(lookup), {}, all ? bindings : gpu::declaredBy(program, bindings));
+}
+
+const gpu::ComputeProgram& ShadowVolume::visibilityProgram(const SceneBuffers& scene, ReceiverKind receivers,
+                                                           const VisibilityPass& pass, const ShadowLookup& lookup) {
+  const gpu::ShaderSource source = VisibilityPass::storingIn(
+      ReceiverPicture::shader({"vsv/shade_volume_visibility.comp.glsl", {}}, receivers), lookup.into);
+  return pass.programs().get(source, {{.id = 0, .value = lookup.bias.id},
+                                      {.id = 1, .value = lookup.diagnose ? 1 : 0},
+                                      {.id = 4, .value = scene.instanced ? 1 : 0},
+                                      ReceiverPicture::constant(receivers)});
 }
 
 std::vector<float> ShadowVolume::downloadDepth(const gpu::Device& device) const {

@@ -22,6 +22,7 @@ VolumeSize halvedSize(const VolumeSize& size);
 // What alpha, theta and phi cover.
 enum class VolumeFit {
   Frustum,  // what the camera sees, from the eye to the surfaces
+  View,     // what the camera sees, however far: for who does not know the surfaces
   Full,     // the whole sphere, as in the papers
 };
 
@@ -29,6 +30,10 @@ enum class VolumeFit {
 // whose depth grows with alpha. `input.side` counts for nothing. Throws WorldError where the light stands at the
 // camera's eye: there is no axis.
 FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit);
+
+// The same without a scene on the CPU; VolumeFit::Frustum is View.
+FittedMap makeVolume(const glm::dvec3& lightW, const glsl::CameraView& camera, const Bounds& sceneBoundsW,
+                     const VolumeSize& size, VolumeFit fit);
 
 // How the bits are made of the occluders. Both give the same bits.
 enum class Voxelization {
@@ -48,11 +53,17 @@ class ShadowVolume final : public Occluders {
   // Stages "volume source", "volume occluders", "volume bits".
   void recordDrawing(gpu::Commands& commands, const MapRenderer& renderer, const SceneBuffers& scene,
                      const LightModel& light, CullMode cull) override;
+  // Compiles and makes all that takes.
+  void prepare(const MapRenderer& renderer, const SceneBuffers& scene);
+  void recordFit(gpu::Commands& commands, const FittedMap& columns) override;
   // The bits alone, from what occluders() holds. `programs`: a MapRenderer's.
   void recordBits(gpu::Commands& commands, const gpu::ComputePrograms& programs, Voxelization how) const;
   // Unfiltered only.
-  void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+  void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const ReceiverPicture& receivers,
                         VisibilityPass& pass, const ShadowLookup& lookup) const override;
+  // What that takes, compiled if it is not yet.
+  static const gpu::ComputeProgram& visibilityProgram(const SceneBuffers& scene, ReceiverKind receivers,
+                                                      const VisibilityPass& pass, const ShadowLookup& lookup);
 
   const glsl::EpipolarGrid& grid() const { return fitted().map.epipolar; }
   const gpu::Buffer* bits() const override { return &bits_; }  // 128 phi bits a uvec4; epipolarTexelIndex says where

@@ -139,8 +139,9 @@ glsl::EpipolarGrid fullGrid(const VolumeSize& size) {
   return grid;
 }
 
-void fitToPicture(const FitInput& input, const glm::dmat3& worldFromLight, glsl::EpipolarGrid& grid) {
-  const Picture picture = pictureOf(input.camera, worldFromLight);
+void fitToPicture(const glm::dvec3& lightW, const glsl::CameraView& camera, std::span<const glm::dvec3> receiversW,
+                  const glm::dmat3& worldFromLight, glsl::EpipolarGrid& grid) {
+  const Picture picture = pictureOf(camera, worldFromLight);
   const Range alpha = alphaRange(picture);
   const double alphaMargin = kAlphaSlackVoxels + 1.0;
   if (grid.alphaCount > 2.0 * alphaMargin) {
@@ -155,26 +156,23 @@ void fitToPicture(const FitInput& input, const glm::dmat3& worldFromLight, glsl:
   const double turn = theta.upper - theta.lower;
   if (turn * (1.0 + 1.0 / grid.thetaCount) < 2.0 * kPi && grid.thetaCount > 2)
     setSteps(theta, grid.thetaCount, 0.5, 0.5, grid.thetaLower, grid.thetaStep);
-  const double phi = phiUpper(input.receiversW, input.light.positionW, worldFromLight[2], alpha.lower);
+  const double phi = phiUpper(receiversW, lightW, worldFromLight[2], alpha.lower);
   grid.phiStep = static_cast<float>(std::min(phi * (1.0 + 1.0 / grid.phiCount), kPi) / grid.phiCount);
 }
 
-}  // namespace
-
-FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit) {
-  const glm::dvec3 lightW = input.light.positionW;
-  const glm::dvec3 eyeW(input.camera.eyeW);
-  const float sceneScale = computeBounds(input.scene).diagonal();
+FittedMap columnsFor(const glm::dvec3& lightW, const glsl::CameraView& camera, std::span<const glm::dvec3> receiversW,
+                     float sceneScale, const VolumeSize& size, VolumeFit fit) {
+  const glm::dvec3 eyeW(camera.eyeW);
   const double distance = glm::length(eyeW - lightW);
   if (!(distance > kLeastAxis * static_cast<double>(sceneScale)))
     throw WorldError(
         fmt::format("the light is {:g} m from the camera's eye, too near for a shadow volume's epipolar axis; move one "
                     "of them with --light or --camera, or use another map",
                     distance));
-  const glm::dmat3 worldFromLight = epipolarAxes(input.camera, (eyeW - lightW) / distance);
+  const glm::dmat3 worldFromLight = epipolarAxes(camera, (eyeW - lightW) / distance);
 
   glsl::EpipolarGrid grid = fullGrid(size);
-  if (fit == VolumeFit::Frustum) fitToPicture(input, worldFromLight, grid);
+  if (fit != VolumeFit::Full) fitToPicture(lightW, camera, receiversW, worldFromLight, grid);
   grid.eyeDistance = static_cast<float>(distance);
 
   FittedMap columns;
@@ -188,13 +186,29 @@ FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit
                  .height = size.phi,
                  .sceneScale = sceneScale,
                  .epipolar = grid};
-  columns.zFar = static_cast<float>(farthestReceiver(input.scene, lightW, Distance::Radial, input.receiversW));
   SliceShaders& shaders = columns.shaders;
   shaders.projective = false;
   shaders.vertex = "shadow/pull_bounded_triangle.vert.glsl";
   shaders.fragment = "vsv/draw_in_epipolar.frag.glsl";
   shaders.rasterizedDepth = false;
   shaders.bounds = "vsv/bound_in_epipolar.comp.glsl";
+  return columns;
+}
+
+}  // namespace
+
+FittedMap fitVolume(const FitInput& input, const VolumeSize& size, VolumeFit fit) {
+  const glm::dvec3& lightW = input.light.positionW;
+  const std::span<const glm::dvec3> seenW = fit == VolumeFit::View ? std::span<const glm::dvec3>() : input.receiversW;
+  FittedMap columns = columnsFor(lightW, input.camera, seenW, computeBounds(input.scene).diagonal(), size, fit);
+  columns.zFar = static_cast<float>(farthestReceiver(input.scene, lightW, Distance::Radial, input.receiversW));
+  return columns;
+}
+
+FittedMap makeVolume(const glm::dvec3& lightW, const glsl::CameraView& camera, const Bounds& sceneBoundsW,
+                     const VolumeSize& size, VolumeFit fit) {
+  FittedMap columns = columnsFor(lightW, camera, {}, sceneBoundsW.diagonal(), size, fit);
+  columns.zFar = static_cast<float>(depthEndsWithin(sceneBoundsW, lightW, Distance::Radial, 0.0).zFar);
   return columns;
 }
 

@@ -48,7 +48,9 @@ constinit const ChoiceOption<VolumeSource> kVolumeSource(
 
 constinit const ChoiceOption<VolumeFit> kVolumeFit(
     {.name = "vsv_fit", .sentence = "what the shadow volume covers", .results = InResults::OwnRows}, VolumeFit::Frustum,
-    {{VolumeFit::Frustum, "frustum", "what the camera sees"}, {VolumeFit::Full, "full", "the whole sphere"}});
+    {{VolumeFit::Frustum, "frustum", "what the camera sees, as far as the surfaces"},
+     {VolumeFit::View, "view", "what it sees, however far"},
+     {VolumeFit::Full, "full", "the whole sphere"}});
 
 namespace {
 

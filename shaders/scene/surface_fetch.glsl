@@ -15,11 +15,16 @@ layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstan
 // a triangle and three corners.
 layout(constant_id = 4) const int kInstanced = 1;
 
+// 1: the picture names triangles within their mesh, as a renderer's own gl_PrimitiveID does, and not in the array of
+// all (src/scene/receiver_picture.h).
+layout(constant_id = 12) const int kTrianglesOfMesh = 0;
+
 PrimitiveId fetchPrimitive(ivec2 pixel) {
   uvec2 named = texelFetch(primitiveIds, pixel, 0).xy;
   PrimitiveId id;
   id.instancePlusOne = named.x;
   id.triangle = named.y;
+  if (kTrianglesOfMesh == 1 && named.x != 0u) id.triangle += instances[named.x - 1u].firstTriangle;
   return id;
 }
 

@@ -15,15 +15,15 @@ layout(constant_id = 2) const int kMapKind = 0;  // kMap*
 
 layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 
-layout(constant_id = 12) const int kMethodCount = 1;
-layout(constant_id = 13) const int kMethod0 = 0;  // kBias*
-layout(constant_id = 14) const int kMethod1 = 0;
-layout(constant_id = 15) const int kMethod2 = 0;
-layout(constant_id = 16) const int kMethod3 = 0;
-layout(constant_id = 17) const int kMethod4 = 0;
-layout(constant_id = 18) const int kMethod5 = 0;
-layout(constant_id = 19) const int kMethod6 = 0;
-layout(constant_id = 20) const int kMethod7 = 0;
+layout(constant_id = 13) const int kMethodCount = 1;
+layout(constant_id = 14) const int kMethod0 = 0;  // kBias*
+layout(constant_id = 15) const int kMethod1 = 0;
+layout(constant_id = 16) const int kMethod2 = 0;
+layout(constant_id = 17) const int kMethod3 = 0;
+layout(constant_id = 18) const int kMethod4 = 0;
+layout(constant_id = 19) const int kMethod5 = 0;
+layout(constant_id = 20) const int kMethod6 = 0;
+layout(constant_id = 21) const int kMethod7 = 0;
 
 layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindMethodParams) uniform MethodParams { BiasParams methodParams[kMostTogether]; };

@@ -2,10 +2,9 @@
 #include "shared/shade.glsl"
 
 #include "shadow/drawn_slice.glsl"
+#include "shadow/vertex_position.glsl"
 
-layout(scalar, binding = kBindPositions) readonly buffer Positions { vec3 positions[]; };
 layout(scalar, binding = kBindInstances) readonly buffer Instances { SceneInstance instances[]; };
-layout(scalar, binding = kBindUvs) readonly buffer Uvs { vec2 uvs[]; };
 
 layout(location = 0) out vec2 uv;
 layout(location = 1) out flat uint instanceIndex;
@@ -16,8 +15,8 @@ void main() {
   instanceIndex = gl_InstanceIndex;
   firstTriangle = rangeTriangle;
   firstId = rangeId;
-  uv = uvs[gl_VertexIndex];
-  vec3 posW = vec3(transform(instances[gl_InstanceIndex].worldFromMesh, vec4(positions[gl_VertexIndex], 1.0f)));
+  uv = vertexUv();
+  vec3 posW = vec3(transform(instances[gl_InstanceIndex].worldFromMesh, vec4(vertexPosition(), 1.0f)));
   vec4 position = transform(mapSlices[drawnSlice()].clipFromLight, vec4(lightFromWorld(lightFrame, posW), 1.0f));
   // A face in the light's own plane has w = 0 at all corners. Nothing of it is in the slice, but with depth clamped a
   // GPU was seen to fill a whole cube face with it, at depth 0. A hair behind the light it is clipped.

@@ -12,6 +12,7 @@ layout(constant_id = 2) const int kMapKind = 0;  // kMap*
 #include "shared/shade.glsl"
 
 #include "scene/surface_fetch.glsl"
+#include "shadow/store_visibility.glsl"
 
 layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 
@@ -26,7 +27,6 @@ layout(push_constant, scalar) uniform Push {
   uint idShift;
 };
 layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
-layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagnosis diagnosis[]; };
 
 layout(scalar, binding = kBindWalkers) buffer Walkers { uint walkers[]; };
@@ -87,7 +87,7 @@ void main() {
   pixelDiagnosis.flags = 0u;
   pixelDiagnosis.walkEnds = 0u;
   pixelDiagnosis.walkSteps = 0u;
-  visibility[index] = shadePixel(pixel, fetchPrimitive(pixel), pixelDiagnosis);
+  storeVisibility(pixel, shade.camera.width, shadePixel(pixel, fetchPrimitive(pixel), pixelDiagnosis));
   if (kDiagnose == 1) diagnosis[index] = pixelDiagnosis;
   uint walks = pixelDiagnosis.flags & (kPixelWalks | kPixelWalksAcross);
   if (kStage == kStageLists && walks != 0u) listWalker(index, walks == kPixelWalks ? 0 : 1);

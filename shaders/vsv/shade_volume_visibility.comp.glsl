@@ -7,6 +7,7 @@
 #include "shared/volume_lookup.glsl"
 
 #include "scene/surface_fetch.glsl"
+#include "shadow/store_visibility.glsl"
 
 layout(local_size_x = kShadeGroupSide, local_size_y = kShadeGroupSide) in;
 
@@ -15,7 +16,6 @@ layout(constant_id = 1) const int kDiagnose = 0;
 
 layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindBits) readonly buffer Bits { uint words[]; };
-layout(scalar, binding = kBindVisibility) writeonly buffer Visibility { float visibility[]; };
 layout(scalar, binding = kBindDiagnosis) writeonly buffer Diagnosis { PixelDiagnosis diagnosis[]; };
 
 #include "shadow/receiver_fetch.glsl"
@@ -57,6 +57,6 @@ void main() {
   pixelDiagnosis.flags = 0u;
   pixelDiagnosis.walkEnds = 0u;
   pixelDiagnosis.walkSteps = 0u;
-  visibility[index] = shadePixel(pixel, fetchPrimitive(pixel), pixelDiagnosis);
+  storeVisibility(pixel, shade.camera.width, shadePixel(pixel, fetchPrimitive(pixel), pixelDiagnosis));
   if (kDiagnose == 1) diagnosis[index] = pixelDiagnosis;
 }

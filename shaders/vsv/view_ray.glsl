@@ -5,9 +5,9 @@
 #include "shared/media_pass.glsl"
 
 #include "scene/surface_fetch.glsl"
+#include "vsv/store_scattered.glsl"
 
 layout(scalar, binding = kBindMedia) uniform Media { MediaUniforms media; };
-layout(scalar, binding = kBindInScattered) buffer InScattered { vec3 inScattered[]; };
 
 struct ViewRay {
   vec3 dirW;  // unit
@@ -25,10 +25,9 @@ ViewRay fetchViewRay(ivec2 pixel) {
 }
 
 void scatter(ivec2 pixel, vec3 light) {
-  uint index = uint(pixel.y * media.camera.width + pixel.x);
   vec3 before = vec3(0.0f);
-  if (push.add == 1) before = inScattered[index];
-  inScattered[index] = before + light;
+  if (push.add == 1) before = scatteredBefore(pixel, media.camera.width);
+  storeScattered(pixel, media.camera.width, before + light);
 }
 
 #endif

@@ -2,9 +2,10 @@
 
 #include "base/check.h"
 #include "base/error.h"
-#include "gpu/ordered_pass.h"
+#include "gpu/pending_work.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@ namespace gnomon::gpu {
 namespace {
 
 constexpr uint32_t kMaxStages = 64;
+constexpr size_t kMostBindings = 48;  // of a program
 
 void recordFullBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 readers) {
   VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
@@ -98,10 +100,12 @@ void recordProgram(const Device& device, VkCommandBuffer commands, const Program
   checkBindings(program, given);
   vkCmdBindPipeline(commands, program.bindPoint(), program.pipeline());
   const std::vector<ProgramInterface::Binding>& declared = program.interface().bindings;
-  std::vector<VkDescriptorBufferInfo> buffers(declared.size());
-  std::vector<VkDescriptorImageInfo> images(declared.size());
-  std::vector<VkBufferView> texels(declared.size());
-  std::vector<VkWriteDescriptorSet> writes(declared.size());
+  // On the stack: this is what a frame does most.
+  GNOMON_CHECK_LE(declared.size(), kMostBindings);
+  std::array<VkDescriptorBufferInfo, kMostBindings> buffers;
+  std::array<VkDescriptorImageInfo, kMostBindings> images;
+  std::array<VkBufferView, kMostBindings> texels;
+  std::array<VkWriteDescriptorSet, kMostBindings> writes;
   for (size_t i = 0; i < declared.size(); ++i) {
     const Binding& binding = *findBinding(given, declared[i].index);
     VkWriteDescriptorSet& write = writes[i];
@@ -120,13 +124,13 @@ void recordProgram(const Device& device, VkCommandBuffer commands, const Program
     } else {
       const VkImageView view = binding.layer ? binding.image->layerView(*binding.layer) : binding.image->view();
       GNOMON_CHECK(view != VK_NULL_HANDLE);
-      images[i] = {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL};
+      images[i] = {VK_NULL_HANDLE, view, binding.image->layout()};
       write.pImageInfo = &images[i];
     }
   }
-  if (!writes.empty())
+  if (!declared.empty())
     device.functions().pushDescriptorSet(commands, program.bindPoint(), program.layout(), 0,
-                                         static_cast<uint32_t>(writes.size()), writes.data());
+                                         static_cast<uint32_t>(declared.size()), writes.data());
   recordPush(commands, program, push);
 }
 
@@ -164,10 +168,52 @@ VkExtent2D extentOf(const RenderTargets& targets) {
   return extent;
 }
 
+// Views, clears and formats of RenderTargets::ordered.
+struct OrderedAttachments {
+  OrderedPassDesc desc;
+  std::vector<VkImageView> views;
+  std::vector<VkClearValue> clears;
+
+  explicit OrderedAttachments(const RenderTargets& targets) {
+    size_t cleared = 0;
+    const auto attach = [&](const Image& image, std::optional<VkClearValue> clear) {
+      views.push_back(targets.layer ? image.layerView(*targets.layer) : image.view());
+      clears.push_back(clear.value_or(VkClearValue{}));
+      cleared += clear ? 1 : 0;
+      return image.desc().format;
+    };
+    for (const ColorTarget& color : targets.colors) {
+      std::optional<VkClearValue> clear;
+      if (color.clear) clear = VkClearValue{.color = *color.clear};
+      desc.colors.push_back(color.image != nullptr ? attach(*color.image, clear) : VK_FORMAT_UNDEFINED);
+    }
+    if (targets.depth) {
+      std::optional<VkClearValue> clear;
+      if (targets.clearDepth) clear = VkClearValue{.depthStencil = {*targets.clearDepth, 0}};
+      desc.depth = attach(*targets.depth, clear);
+    }
+    GNOMON_CHECK(cleared == 0 || cleared == views.size());
+    desc.clear = cleared > 0;
+  }
+
+  OrderedTargets::Made make(const Device& device, VkExtent2D extent, OrderedTargets& kept) const {
+    return kept.get(device, desc, views, extent);
+  }
+};
+
 }  // namespace
+
+std::vector<Binding> declaredBy(const Program& program, std::vector<Binding> bindings) {
+  std::erase_if(bindings, [&](const Binding& binding) {
+    return std::ranges::none_of(program.interface().bindings,
+                                [&](const auto& declared) { return declared.index == binding.index; });
+  });
+  return bindings;
+}
 
 Commands::Commands(const Device& device, const char* name) : device_(device) {
   GNOMON_CHECK(name != nullptr);
+  GNOMON_CHECK(device.pending() == nullptr);  // what is borrowed is not submitted to
   VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
   poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
   poolInfo.queueFamilyIndex = device.queueFamily();
@@ -190,6 +236,12 @@ Commands::Commands(const Device& device, const char* name) : device_(device) {
   barrier("earlier submissions write -> everything here reads");
 }
 
+Commands::Commands(const Device& device, VkCommandBuffer lent, const char* words)
+    : device_(device), commands_(lent), lent_(true) {
+  if (device.pending() != nullptr) device.pending()->record(lent);
+  barrier(words);
+}
+
 Commands::~Commands() = default;
 
 void Commands::beginStage(const char* name) {
@@ -197,7 +249,7 @@ void Commands::beginStage(const char* name) {
   GNOMON_CHECK(!inStage_);
   GNOMON_CHECK(!inRendering_);
   GNOMON_CHECK_LT(stageNames_.size(), kMaxStages);
-  if (!queries_ && device_.info().timestampValidBits > 0) {
+  if (!lent_ && !queries_ && device_.info().timestampValidBits > 0) {
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = 2 * kMaxStages;
@@ -271,45 +323,19 @@ void Commands::beginDynamic(const RenderTargets& targets, VkExtent2D extent) {
   vkCmdBeginRendering(commands_, &info);
 }
 
+OrderedTargets::Made makeOrdered(const Device& device, const RenderTargets& targets, OrderedTargets& kept) {
+  return OrderedAttachments(targets).make(device, extentOf(targets), kept);
+}
+
 void Commands::beginOrdered(const RenderTargets& targets, VkExtent2D extent) {
   GNOMON_CHECK(device_.info().orderedAttachmentAccess);
   GNOMON_CHECK_EQ(targets.viewMask, 0u);
-  OrderedPassDesc desc;
-  std::vector<VkImageView> views;
-  std::vector<VkClearValue> clears;
-  size_t cleared = 0;
-  const auto attach = [&](const Image& image, std::optional<VkClearValue> clear) {
-    views.push_back(targets.layer ? image.layerView(*targets.layer) : image.view());
-    clears.push_back(clear.value_or(VkClearValue{}));
-    cleared += clear ? 1 : 0;
-    return image.desc().format;
-  };
-  for (const ColorTarget& color : targets.colors) {
-    std::optional<VkClearValue> clear;
-    if (color.clear) clear = VkClearValue{.color = *color.clear};
-    desc.colors.push_back(color.image != nullptr ? attach(*color.image, clear) : VK_FORMAT_UNDEFINED);
-  }
-  if (targets.depth) {
-    std::optional<VkClearValue> clear;
-    if (targets.clearDepth) clear = VkClearValue{.depthStencil = {*targets.clearDepth, 0}};
-    desc.depth = attach(*targets.depth, clear);
-  }
-  GNOMON_CHECK(cleared == 0 || cleared == views.size());
-  desc.clear = cleared > 0;
-  orderedPasses_.push_back(createOrderedPass(device_, desc));
-  VkFramebufferCreateInfo framebufferInfo{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
-  framebufferInfo.renderPass = orderedPasses_.back().get();
-  framebufferInfo.attachmentCount = static_cast<uint32_t>(views.size());
-  framebufferInfo.pAttachments = views.data();
-  framebufferInfo.width = extent.width;
-  framebufferInfo.height = extent.height;
-  framebufferInfo.layers = 1;
-  VkFramebuffer framebuffer = VK_NULL_HANDLE;
-  GNOMON_VK_CHECK(vkCreateFramebuffer(device_.handle(), &framebufferInfo, nullptr, &framebuffer));
-  framebuffers_.emplace_back(device_.handle(), framebuffer);
+  const OrderedAttachments attachments(targets);
+  const std::vector<VkClearValue>& clears = attachments.clears;
+  const OrderedTargets::Made made = attachments.make(device_, extent, targets.kept ? *targets.kept : ordered_);
   VkRenderPassBeginInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
-  info.renderPass = framebufferInfo.renderPass;
-  info.framebuffer = framebuffer;
+  info.renderPass = made.pass;
+  info.framebuffer = made.framebuffer;
   info.renderArea.extent = extent;
   info.clearValueCount = static_cast<uint32_t>(clears.size());
   info.pClearValues = clears.data();
@@ -350,8 +376,13 @@ void Commands::setCulling(VkCullModeFlags mode, VkFrontFace front) {
   vkCmdSetFrontFace(commands_, front);
 }
 
-void Commands::bindIndexBuffer(const Buffer& buffer) {
-  vkCmdBindIndexBuffer(commands_, buffer.handle(), 0, VK_INDEX_TYPE_UINT32);
+void Commands::bindIndexBuffer(const Buffer& buffer, VkDeviceSize offset, VkIndexType type) {
+  vkCmdBindIndexBuffer(commands_, buffer.handle(), offset, type);
+}
+
+void Commands::bindVertexStream(const Buffer& stream, VkDeviceSize offset) {
+  const VkBuffer handle = stream.handle();
+  vkCmdBindVertexBuffers(commands_, 0, 1, &handle, &offset);
 }
 
 void Commands::bindVertexStreams(const std::vector<const Buffer*>& streams) {
@@ -393,6 +424,16 @@ void Commands::fill(const Buffer& buffer, uint32_t word) {
   vkCmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, word);
 }
 
+void Commands::update(const Buffer& buffer, std::span<const std::byte> bytes, VkDeviceSize offset) {
+  constexpr size_t kMostBytes = 65536;
+  GNOMON_CHECK(!inRendering_);
+  GNOMON_CHECK_LE(offset + bytes.size(), buffer.size());
+  for (size_t done = 0; done < bytes.size(); done += kMostBytes) {
+    const std::span<const std::byte> piece = bytes.subspan(done, std::min(kMostBytes, bytes.size() - done));
+    vkCmdUpdateBuffer(commands_, buffer.handle(), offset + done, piece.size(), piece.data());
+  }
+}
+
 void Commands::copy(const Buffer& from, const Buffer& to, VkDeviceSize size) {
   GNOMON_CHECK(!inRendering_);
   GNOMON_CHECK_LE(size, from.size());
@@ -418,6 +459,7 @@ Submission Commands::submitAndWait() {
   GNOMON_CHECK(!inStage_);
   GNOMON_CHECK(!inRendering_);
   GNOMON_CHECK(!submitted_);
+  GNOMON_CHECK(!lent_);
   submitted_ = true;
   // A fence makes nothing visible to the CPU by itself: mapped memory needs the host as a reader.
   recordFullBarrier(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT);

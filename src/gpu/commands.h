@@ -2,6 +2,7 @@
 // One command buffer, recorded, submitted and waited for. A pass is one call with its program and everything that is
 // bound; between two passes there is one barrier, with a text that says who wrote and who reads.
 
+#include "gpu/ordered_pass.h"
 #include "gpu/program.h"
 
 #include <glm/glm.hpp>
@@ -24,6 +25,9 @@ struct Binding {
   Binding(uint32_t i, const Image& im, std::optional<uint32_t> l = {}) : index(i), image(&im), layer(l) {}
 };
 
+// Those that a program declares.
+std::vector<Binding> declaredBy(const Program& program, std::vector<Binding> bindings);
+
 struct ColorTarget {
   const Image* image = nullptr;            // none: what fragments write here goes nowhere
   std::optional<VkClearColorValue> clear;  // absent: keep what is there
@@ -41,7 +45,11 @@ struct RenderTargets {
   // Fragments read the colours that were there before them (GraphicsDesc::ordered). One layer, all targets cleared or
   // all kept.
   bool ordered = false;
+  OrderedTargets* kept = nullptr;  // where what that takes is kept from one time to the next; none: as long as Commands
 };
+
+// What RenderTargets::ordered takes, made in `kept` if it is not there yet: a pass and a framebuffer.
+OrderedTargets::Made makeOrdered(const Device& device, const RenderTargets& targets, OrderedTargets& kept);
 
 struct StageTime {
   std::string name;
@@ -56,6 +64,10 @@ struct Submission {
 class Commands {
  public:
   Commands(const Device& device, const char* name);
+  // Records into somebody else's command buffer, which is being recorded outside of a render pass. Nothing is made,
+  // submitted or waited for, and stages are labels without times. Whatever the device has pending comes first.
+  // `words`: what was written before and is read here.
+  Commands(const Device& device, VkCommandBuffer lent, const char* words);
   ~Commands();
   Commands(const Commands&) = delete;
   Commands& operator=(const Commands&) = delete;
@@ -81,8 +93,9 @@ class Commands {
   // Other push constants for the program that is bound.
   void push(const GraphicsProgram& program, std::span<const std::byte> push);
   void setCulling(VkCullModeFlags mode, VkFrontFace front);
-  void bindIndexBuffer(const Buffer& buffer);                         // 32-bit indices
+  void bindIndexBuffer(const Buffer& buffer, VkDeviceSize offset = 0, VkIndexType type = VK_INDEX_TYPE_UINT32);
   void bindVertexStreams(const std::vector<const Buffer*>& streams);  // GraphicsDesc::vertexStreams
+  void bindVertexStream(const Buffer& stream, VkDeviceSize offset);   // the only one
   void drawIndexed(uint32_t indexCount, uint32_t instanceCount, uint32_t firstIndex, int32_t vertexOffset,
                    uint32_t firstInstance);
   void draw(uint32_t vertexCount, uint32_t instanceCount, uint32_t firstVertex, uint32_t firstInstance);
@@ -91,6 +104,8 @@ class Commands {
   void endRendering();
 
   void fill(const Buffer& buffer, uint32_t word);
+  // As the commands are executed: earlier ones see what was there before. At most 64 KiB a piece, in as many pieces.
+  void update(const Buffer& buffer, std::span<const std::byte> bytes, VkDeviceSize offset = 0);
   void copy(const Buffer& from, const Buffer& to, VkDeviceSize size);
   void copy(const Image& from, const Buffer& to);  // all layers and components, tightly packed
   void copy(const Buffer& from, const Image& to, VkDeviceSize fromOffset);
@@ -109,10 +124,9 @@ class Commands {
   OwnedChild<VkCommandPool, vkDestroyCommandPool> pool_;
   OwnedChild<VkQueryPool, vkDestroyQueryPool> queries_;
   OwnedChild<VkFence, vkDestroyFence> fence_;
-  // Of RenderTargets::ordered, until the device is done with them.
-  std::vector<OwnedChild<VkRenderPass, vkDestroyRenderPass>> orderedPasses_;
-  std::vector<OwnedChild<VkFramebuffer, vkDestroyFramebuffer>> framebuffers_;
+  OrderedTargets ordered_;  // until the device is done with them
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  bool lent_ = false;
   std::vector<std::string> stageNames_;
   bool inStage_ = false;
   bool inRendering_ = false;

@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "gpu/features.h"
+#include "gpu/pending_work.h"
 #include "gpu/pipeline_cache.h"
 
 #include <algorithm>
@@ -263,11 +264,12 @@ struct DeviceBuilder {
     VkDevice handle = VK_NULL_HANDLE;
     GNOMON_VK_CHECK(vkCreateDevice(chosen.device, &info, nullptr, &handle));
     device.device_ = Owned<VkDevice, vkDestroyDevice>(handle);
+    device.handle_ = handle;
   }
 
   void finish() {
     VkDevice handle = device.handle();
-    vkGetDeviceQueue(handle, device.queueFamily_, 0, &device.queue_);
+    if (!device.pending_) vkGetDeviceQueue(handle, device.queueFamily_, 0, &device.queue_);
     vkGetPhysicalDeviceMemoryProperties(device.physical_, &device.memory_);
     device.functions_ = {
         .pushDescriptorSet = load<PFN_vkCmdPushDescriptorSetKHR>(handle, "vkCmdPushDescriptorSetKHR"),
@@ -275,7 +277,10 @@ struct DeviceBuilder {
         .endLabel = load<PFN_vkCmdEndDebugUtilsLabelEXT>(handle, "vkCmdEndDebugUtilsLabelEXT"),
         .setObjectName = load<PFN_vkSetDebugUtilsObjectNameEXT>(handle, "vkSetDebugUtilsObjectNameEXT"),
     };
-    device.pipelineCache_ = createPipelineCache(device.physical_, handle);
+    if (!device.pending_)
+      device.pipelineCache_ = createPipelineCache(device.physical_, handle);
+    else if (device.lentCache_ == VK_NULL_HANDLE)
+      device.pipelineCache_ = createEmptyPipelineCache(handle);
   }
 };
 
@@ -290,6 +295,28 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options) {
   builder.makeDevice(options.name.empty() ? environment("GNOMON_DEVICE") : options.name);
   device->info_.mapsDeviceMemory = !options.hideDeviceMemory;
   builder.finish();
+  return device;
+}
+
+std::unique_ptr<Device> Device::borrow(const BorrowedDevice& lent) {
+  const std::vector<std::string> missing = missingRequirements(queryCapabilities(lent.physical));
+  if (!missing.empty())
+    throw WorldError(
+        fmt::format("device '{}' lacks {}; choose another", describe(lent.physical).name, fmt::join(missing, ", ")));
+  std::unique_ptr<Device> device(new Device());
+  device->messages_ = std::make_unique<Messages>();
+  device->physical_ = lent.physical;
+  device->handle_ = lent.device;
+  device->queueFamily_ = lent.queueFamily;
+  device->info_ = describe(lent.physical);
+  device->info_.orderedAttachmentAccess = lent.orderedAttachmentAccess;
+  device->memorySource_ = lent.memory;
+  device->lentCache_ = lent.pipelineCache;
+  device->pending_ = std::make_unique<PendingWork>(*device);
+  DeviceBuilder{*device}.finish();
+  if (device->functions_.pushDescriptorSet == nullptr)
+    throw WorldError(fmt::format("device '{}' was made without {}; enable it (gpu::enabledExtensions lists all)",
+                                 device->info_.name, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME));
   return device;
 }
 
@@ -331,6 +358,10 @@ uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags required, V
     throw WorldError(fmt::format("device '{}' has no memory type with properties {:#x}; choose another with --device",
                                  info_.name, required));
   return *best;
+}
+
+void Device::releaseStaging() const {
+  if (pending_) pending_->releaseStaging();
 }
 
 void Device::nameObject(VkObjectType type, uint64_t object, const char* name) const {

@@ -4,6 +4,7 @@
 // Choice: --device NAME takes the first device whose name contains NAME (case ignored); without it the first discrete
 // GPU, then integrated, then a CPU device (lavapipe). GNOMON_DEVICE in the environment acts as --device.
 
+#include "gpu/memory_source.h"
 #include "gpu/vulkan.h"
 
 #include <memory>
@@ -47,21 +48,43 @@ struct DeviceFunctions {
   PFN_vkSetDebugUtilsObjectNameEXT setObjectName = nullptr;
 };
 
+// A device that somebody else made and keeps. It has what missingRequirements() and notEnabled() (features.h) ask for,
+// and outlives what is made of it.
+struct BorrowedDevice {
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  uint32_t queueFamily = 0;  // of the command buffers; draws and computes
+  // Its optional features, as far as they are switched on.
+  bool orderedAttachmentAccess = false;
+  VkPipelineCache pipelineCache = VK_NULL_HANDLE;  // none: one that is not kept
+  MemorySource* memory = nullptr;                  // none: vkAllocateMemory, once a resource
+};
+
+class PendingWork;
+
 // Submissions are not synchronized: one thread at a time.
 class Device {
  public:
   // Throws WorldError: no device, none of that name (lists them), or a required feature is missing (names it).
   static std::unique_ptr<Device> create(const DeviceOptions& options);
+  // Nothing is ever submitted to it: what resources need done on a queue (layouts, first contents) waits in pending().
+  // Throws WorldError where it lacks something required (names it).
+  static std::unique_ptr<Device> borrow(const BorrowedDevice& lent);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
   const DeviceInfo& info() const { return info_; }
-  VkDevice handle() const { return device_.get(); }
+  VkDevice handle() const { return handle_; }
   VkPhysicalDevice physical() const { return physical_; }
   VkQueue queue() const { return queue_; }
   uint32_t queueFamily() const { return queueFamily_; }
-  VkPipelineCache pipelineCache() const { return pipelineCache_.get(); }
+  VkPipelineCache pipelineCache() const { return lentCache_ ? lentCache_ : pipelineCache_.get(); }
+  MemorySource* memorySource() const { return memorySource_; }
+  PendingWork* pending() const { return pending_.get(); }  // null but for a borrowed device
+  // Of a borrowed device: frees what large uploads took, once it is done with the command buffer that did them.
+  void releaseStaging() const;
   const DeviceFunctions& functions() const { return functions_; }
 
   // Every warning and error of the validation layers so far. Tests fail on any.
@@ -82,7 +105,11 @@ class Device {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   DeviceInfo info_;
-  Owned<VkDevice, vkDestroyDevice> device_;
+  Owned<VkDevice, vkDestroyDevice> device_;  // empty where it is borrowed
+  VkDevice handle_ = VK_NULL_HANDLE;
+  MemorySource* memorySource_ = nullptr;
+  std::unique_ptr<PendingWork> pending_;
+  VkPipelineCache lentCache_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t queueFamily_ = 0;
   OwnedChild<VkPipelineCache, vkDestroyPipelineCache> pipelineCache_;

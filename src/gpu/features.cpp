@@ -90,6 +90,85 @@ std::vector<std::string> missingRequirements(const Capabilities& capabilities) {
   return missing;
 }
 
+namespace {
+
+template <typename T>
+void copyStruct(const VkBaseInStructure* from, T& to) {
+  const void* next = to.pNext;
+  to = *reinterpret_cast<const T*>(from);
+  to.pNext = const_cast<void*>(next);
+}
+
+// A feature of a struct of its own, where the version's struct is not used.
+template <typename T>
+VkBool32 fieldOf(const VkBaseInStructure* from, VkBool32 T::*field) {
+  return reinterpret_cast<const T*>(from)->*field;
+}
+
+Capabilities enabledBy(const VkDeviceCreateInfo& info) {
+  Capabilities enabled;
+  enabled.apiVersion = VK_API_VERSION_1_3;
+  for (uint32_t i = 0; i < info.enabledExtensionCount; ++i)
+    enabled.extensions.emplace_back(info.ppEnabledExtensionNames[i]);
+  Features& f = enabled.features;
+  if (info.pEnabledFeatures != nullptr) f.core.features = *info.pEnabledFeatures;
+  for (auto* s = static_cast<const VkBaseInStructure*>(info.pNext); s != nullptr; s = s->pNext) {
+    switch (s->sType) {
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2:
+        copyStruct(s, f.core);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES:
+        copyStruct(s, f.v11);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES:
+        copyStruct(s, f.v12);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES:
+        copyStruct(s, f.v13);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_FEATURES_EXT:
+        copyStruct(s, f.ordered);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES:
+        f.v11.multiview = fieldOf(s, &VkPhysicalDeviceMultiviewFeatures::multiview);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_DRAW_PARAMETERS_FEATURES:
+        f.v11.shaderDrawParameters = fieldOf(s, &VkPhysicalDeviceShaderDrawParametersFeatures::shaderDrawParameters);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES:
+        f.v12.scalarBlockLayout = fieldOf(s, &VkPhysicalDeviceScalarBlockLayoutFeatures::scalarBlockLayout);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES:
+        f.v12.hostQueryReset = fieldOf(s, &VkPhysicalDeviceHostQueryResetFeatures::hostQueryReset);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES:
+        f.v13.dynamicRendering = fieldOf(s, &VkPhysicalDeviceDynamicRenderingFeatures::dynamicRendering);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES:
+        f.v13.synchronization2 = fieldOf(s, &VkPhysicalDeviceSynchronization2Features::synchronization2);
+        break;
+      case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES:
+        f.v13.maintenance4 = fieldOf(s, &VkPhysicalDeviceMaintenance4Features::maintenance4);
+        break;
+      default:
+        break;
+    }
+  }
+  return enabled;
+}
+
+}  // namespace
+
+std::vector<std::string> notEnabled(const VkDeviceCreateInfo& info) {
+  return missingRequirements(enabledBy(info));
+}
+
+bool enablesOrderedAccess(const VkDeviceCreateInfo& info) {
+  const Capabilities enabled = enabledBy(info);
+  return enabled.has(VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME) &&
+         enabled.features.ordered.rasterizationOrderColorAttachmentAccess == VK_TRUE;
+}
+
 Features enabledFeatures(const Capabilities& capabilities) {
   Features available = capabilities.features;
   Features enabled;

@@ -35,6 +35,12 @@ Capabilities queryCapabilities(VkPhysicalDevice device);
 // Names of the required features and extensions that are missing; empty where the device will do.
 std::vector<std::string> missingRequirements(const Capabilities& capabilities);
 
+// The same of what a caller switches on when it makes its device; the device itself cannot be asked. Features of 1.1 to
+// 1.3 are found in the structs of those versions, and in those of the extensions that became part of them.
+std::vector<std::string> notEnabled(const VkDeviceCreateInfo& info);
+// Whether it switches on two depth layers in one pass (DeviceInfo::orderedAttachmentAccess).
+bool enablesOrderedAccess(const VkDeviceCreateInfo& info);
+
 // What to switch on: everything required, and of the optional what the device has.
 Features enabledFeatures(const Capabilities& capabilities);
 std::vector<const char*> enabledExtensions(const Capabilities& capabilities);

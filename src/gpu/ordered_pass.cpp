@@ -38,4 +38,23 @@ OwnedChild<VkRenderPass, vkDestroyRenderPass> createOrderedPass(const Device& de
   return {device.handle(), pass};
 }
 
+OrderedTargets::Made OrderedTargets::get(const Device& device, const OrderedPassDesc& desc,
+                                         const std::vector<VkImageView>& views, VkExtent2D extent) {
+  for (const Entry& entry : entries_)
+    if (entry.desc == desc && entry.views == views) return {entry.pass.get(), entry.framebuffer.get()};
+  Entry made{.desc = desc, .views = views, .pass = createOrderedPass(device, desc), .framebuffer = {}};
+  VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
+  info.renderPass = made.pass.get();
+  info.attachmentCount = static_cast<uint32_t>(views.size());
+  info.pAttachments = views.data();
+  info.width = extent.width;
+  info.height = extent.height;
+  info.layers = 1;
+  VkFramebuffer framebuffer = VK_NULL_HANDLE;
+  GNOMON_VK_CHECK(vkCreateFramebuffer(device.handle(), &info, nullptr, &framebuffer));
+  made.framebuffer = {device.handle(), framebuffer};
+  entries_.push_back(std::move(made));
+  return {entries_.back().pass.get(), entries_.back().framebuffer.get()};
+}
+
 }  // namespace gnomon::gpu

@@ -59,6 +59,13 @@ OwnedChild<VkPipelineCache, vkDestroyPipelineCache> createPipelineCache(VkPhysic
   return {device, cache};
 }
 
+OwnedChild<VkPipelineCache, vkDestroyPipelineCache> createEmptyPipelineCache(VkDevice device) {
+  const VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+  VkPipelineCache cache = VK_NULL_HANDLE;
+  GNOMON_VK_CHECK(vkCreatePipelineCache(device, &info, nullptr, &cache));
+  return {device, cache};
+}
+
 void savePipelineCache(VkPhysicalDevice physical, VkDevice device, VkPipelineCache cache) noexcept {
   try {
     const std::filesystem::path path = cacheFile(physical);

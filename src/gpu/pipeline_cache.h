@@ -11,6 +11,9 @@ namespace gnomon::gpu {
 // Starts from the file when it belongs to this device and driver, else empty; file trouble is passed over.
 OwnedChild<VkPipelineCache, vkDestroyPipelineCache> createPipelineCache(VkPhysicalDevice physical, VkDevice device);
 
+// Of a borrowed device: no file.
+OwnedChild<VkPipelineCache, vkDestroyPipelineCache> createEmptyPipelineCache(VkDevice device);
+
 // Writes the file when its content would change; trouble is passed over.
 void savePipelineCache(VkPhysicalDevice physical, VkDevice device, VkPipelineCache cache) noexcept;
 

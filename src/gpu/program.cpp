@@ -232,12 +232,12 @@ ComputeProgram::ComputeProgram(const Device& device, const ShaderSource& shader,
   adopt(device, pipeline);
 }
 
-const ComputeProgram& ComputePrograms::get(const std::string& path,
+const ComputeProgram& ComputePrograms::get(const ShaderSource& source,
                                            const std::vector<Specialization>& specializations) const {
   for (const auto& entry : entries_)
-    if (entry->path == path && entry->specializations == specializations) return entry->program;
+    if (entry->source == source && entry->specializations == specializations) return entry->program;
   entries_.push_back(
-      std::make_unique<Entry>(Entry{path, specializations, ComputeProgram(device_, {path, {}}, specializations)}));
+      std::make_unique<Entry>(Entry{source, specializations, ComputeProgram(device_, source, specializations)}));
   return entries_.back()->program;
 }
 

@@ -64,11 +64,14 @@ class ComputeProgram : public Program {
 class ComputePrograms {
  public:
   explicit ComputePrograms(const Device& device) : device_(device) {}
-  const ComputeProgram& get(const std::string& path, const std::vector<Specialization>& specializations = {}) const;
+  const ComputeProgram& get(const std::string& path, const std::vector<Specialization>& specializations = {}) const {
+    return get(ShaderSource{path, {}}, specializations);
+  }
+  const ComputeProgram& get(const ShaderSource& source, const std::vector<Specialization>& specializations) const;
 
  private:
   struct Entry {
-    std::string path;
+    ShaderSource source;
     std::vector<Specialization> specializations;
     ComputeProgram program;
   };
@@ -80,6 +83,7 @@ class ComputePrograms {
 struct VertexStream {
   VkFormat format = VK_FORMAT_UNDEFINED;
   uint32_t stride = 0;  // bytes
+  bool operator==(const VertexStream&) const = default;
 };
 
 struct GraphicsDesc {

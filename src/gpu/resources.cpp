@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "gpu/commands.h"
+#include "gpu/pending_work.h"
 
 #include <algorithm>
 
@@ -48,24 +49,38 @@ void nameObject(const Device& device, VkObjectType type, Handle handle, const ch
 }
 
 struct Allocation {
-  OwnedChild<VkDeviceMemory, vkFreeMemory> memory;
+  OwnedMemory memory;
   bool mappable = false;
 };
 
-Allocation allocate(const Device& device, const char* name, const VkMemoryRequirements& needs, Memory kind) {
+// Of whichever of the two is not null.
+Allocation allocate(const Device& device, const char* name, const VkMemoryRequirements& needs, Memory kind,
+                    VkBuffer buffer, VkImage image) {
+  const VkMemoryPropertyFlags visible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  if (MemorySource* source = device.memorySource()) {
+    const bool host = kind == Memory::Readback;
+    const MemoryBlock block =
+        source->allocate({.name = name,
+                          .needs = needs,
+                          .required = host ? visible : 0,
+                          .preferred = host ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                          .buffer = buffer,
+                          .image = image});
+    GNOMON_CHECK(block.memory != VK_NULL_HANDLE);
+    GNOMON_CHECK(!host || block.mapped != nullptr);
+    return {.memory = {device.handle(), source, block},
+            .mappable = buffer != VK_NULL_HANDLE && block.mapped != nullptr};
+  }
   if (needs.size > device.info().maxAllocationBytes)
     throw tooLarge(name, needs.size, "the device's largest allocation", device.info().maxAllocationBytes);
   VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
   info.allocationSize = needs.size;
-  info.memoryTypeIndex =
-      kind == Memory::Device
-          ? device.memoryType(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
-          : device.memoryType(needs.memoryTypeBits,
-                              VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                              VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
+  info.memoryTypeIndex = kind == Memory::Device
+                             ? device.memoryType(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
+                             : device.memoryType(needs.memoryTypeBits, visible, VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
   VkDeviceMemory handle = VK_NULL_HANDLE;
   checkMade(device, vkAllocateMemory(device.handle(), &info, nullptr, &handle), "vkAllocateMemory", name, needs.size);
-  Allocation allocation{{device.handle(), handle}, true};
+  Allocation allocation{{device.handle(), nullptr, {.memory = handle}}, true};
   nameObject(device, VK_OBJECT_TYPE_DEVICE_MEMORY, handle, name);
   VkPhysicalDeviceMemoryProperties memory{};
   vkGetPhysicalDeviceMemoryProperties(device.physical(), &memory);
@@ -167,8 +182,21 @@ OwnedChild<VkImageView, vkDestroyImageView> createView(const Device& device, VkI
   return {device.handle(), view};
 }
 
-void bringToGeneral(const Device& device, const Image& image) {
-  Commands commands(device, image.desc().name);
+}  // namespace
+
+OwnedMemory::~OwnedMemory() {
+  if (block_.memory == VK_NULL_HANDLE) return;
+  if (source_)
+    source_->release(block_);
+  else
+    vkFreeMemory(device_, block_.memory, nullptr);
+}
+
+PendingTicket::~PendingTicket() {
+  if (work_) work_->forget(handle_);
+}
+
+void recordToGeneral(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, uint32_t layerCount) {
   VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
   barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
   barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -177,12 +205,23 @@ void bringToGeneral(const Device& device, const Image& image) {
   barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
   barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.image = image.handle();
-  barrier.subresourceRange = {image.aspect(), 0, 1, 0, image.desc().layerCount};
+  barrier.image = image;
+  barrier.subresourceRange = {aspect, 0, 1, 0, layerCount};
   VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   dependency.imageMemoryBarrierCount = 1;
   dependency.pImageMemoryBarriers = &barrier;
-  vkCmdPipelineBarrier2(commands.handle(), &dependency);
+  vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+namespace {
+
+void bringToGeneral(const Device& device, const Image& image) {
+  if (device.pending() != nullptr) {
+    device.pending()->bringToGeneral(image.handle(), image.aspect(), image.desc().layerCount);
+    return;
+  }
+  Commands commands(device, image.desc().name);
+  recordToGeneral(commands.handle(), image.handle(), image.aspect(), image.desc().layerCount);
   commands.submitAndWait();
 }
 
@@ -202,12 +241,14 @@ Buffer::Buffer(const Device& device, const BufferDesc& desc) : size_(desc.size =
   checkMade(device, vkCreateBuffer(device.handle(), &info, nullptr, &handle), "vkCreateBuffer", desc.name, size_);
   buffer_ = {device.handle(), handle};
   nameObject(device, VK_OBJECT_TYPE_BUFFER, handle, desc.name);
+  ticket_ = {device.pending(), reinterpret_cast<uint64_t>(handle)};
 
   VkMemoryRequirements needs{};
   vkGetBufferMemoryRequirements(device.handle(), handle, &needs);
-  Allocation allocation = allocate(device, desc.name, needs, desc.memory);
+  Allocation allocation = allocate(device, desc.name, needs, desc.memory, handle, VK_NULL_HANDLE);
   memory_ = std::move(allocation.memory);
-  GNOMON_VK_CHECK(vkBindBufferMemory(device.handle(), handle, memory_.get(), 0));
+  const MemoryBlock& block = memory_.block();
+  GNOMON_VK_CHECK(vkBindBufferMemory(device.handle(), handle, block.memory, block.offset));
   if (desc.texels != VK_FORMAT_UNDEFINED) {
     VkBufferViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     viewInfo.buffer = handle;
@@ -219,8 +260,8 @@ Buffer::Buffer(const Device& device, const BufferDesc& desc) : size_(desc.size =
     nameObject(device, VK_OBJECT_TYPE_BUFFER_VIEW, view, desc.name);
   }
   if (!allocation.mappable) return;
-  void* mapped = nullptr;
-  GNOMON_VK_CHECK(vkMapMemory(device.handle(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped));
+  void* mapped = block.mapped;
+  if (mapped == nullptr) GNOMON_VK_CHECK(vkMapMemory(device.handle(), block.memory, 0, VK_WHOLE_SIZE, 0, &mapped));
   mapped_ = static_cast<std::byte*>(mapped);
 }
 
@@ -236,11 +277,12 @@ Image::Image(const Device& device, const ImageDesc& desc) : desc_(desc) {
             packedBytes(desc));
   image_ = {device.handle(), handle};
   nameObject(device, VK_OBJECT_TYPE_IMAGE, handle, desc.name);
+  ticket_ = {device.pending(), reinterpret_cast<uint64_t>(handle)};
 
   VkMemoryRequirements needs{};
   vkGetImageMemoryRequirements(device.handle(), handle, &needs);
-  memory_ = allocate(device, desc.name, needs, Memory::Device).memory;
-  GNOMON_VK_CHECK(vkBindImageMemory(device.handle(), handle, memory_.get(), 0));
+  memory_ = allocate(device, desc.name, needs, Memory::Device, VK_NULL_HANDLE, handle).memory;
+  GNOMON_VK_CHECK(vkBindImageMemory(device.handle(), handle, memory_.block().memory, memory_.block().offset));
 
   // Views exist to be bound; an image that is only copied has none.
   const VkImageUsageFlags viewUsages =
@@ -278,6 +320,10 @@ void upload(const Device& device, const Buffer& buffer, std::span<const std::byt
   if (bytes.empty()) return;
   if (buffer.mapped()) {
     std::memcpy(buffer.mapped(), bytes.data(), bytes.size());
+    return;
+  }
+  if (device.pending() != nullptr) {
+    device.pending()->upload(buffer.handle(), bytes);
     return;
   }
   const Buffer staging(device, {.name = "staging for upload",

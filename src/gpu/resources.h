@@ -8,6 +8,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gnomon::gpu {
@@ -26,11 +27,59 @@ struct BufferDesc {
   VkFormat texels = VK_FORMAT_UNDEFINED;
 };
 
+// Memory of one resource, given back where it came from.
+class OwnedMemory {
+ public:
+  OwnedMemory() = default;
+  OwnedMemory(VkDevice device, MemorySource* source, const MemoryBlock& block)
+      : device_(device), source_(source), block_(block) {}
+  OwnedMemory(OwnedMemory&& other) noexcept { swap(other); }
+  OwnedMemory& operator=(OwnedMemory&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~OwnedMemory();
+  const MemoryBlock& block() const { return block_; }
+
+ private:
+  void swap(OwnedMemory& other) {
+    std::swap(device_, other.device_);
+    std::swap(source_, other.source_);
+    std::swap(block_, other.block_);
+  }
+  VkDevice device_ = VK_NULL_HANDLE;
+  MemorySource* source_ = nullptr;
+  MemoryBlock block_;
+};
+
+// A resource of a borrowed device that something may wait to be done with (pending_work.h): when it goes, that does.
+class PendingTicket {
+ public:
+  PendingTicket() = default;
+  PendingTicket(PendingWork* work, uint64_t handle) : work_(work), handle_(handle) {}
+  PendingTicket(PendingTicket&& other) noexcept { swap(other); }
+  PendingTicket& operator=(PendingTicket&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~PendingTicket();
+
+ private:
+  void swap(PendingTicket& other) {
+    std::swap(work_, other.work_);
+    std::swap(handle_, other.handle_);
+  }
+  PendingWork* work_ = nullptr;
+  uint64_t handle_ = 0;
+};
+
 class Buffer {
  public:
   Buffer() = default;
   Buffer(const Device& device, const BufferDesc& desc);
-  VkBuffer handle() const { return buffer_.get(); }
+  // Somebody else's, which must stay.
+  Buffer(VkBuffer lent, VkDeviceSize size) : lent_(lent), size_(size) {}
+  VkBuffer handle() const { return lent_ ? lent_ : buffer_.get(); }
   VkBufferView view() const { return view_.get(); }  // of a texel buffer
   VkDeviceSize size() const { return size_; }
   // Mapped memory: always for Readback, and for Device where the device's memory is host visible and cached
@@ -38,9 +87,11 @@ class Buffer {
   std::byte* mapped() const { return mapped_; }
 
  private:
+  VkBuffer lent_ = VK_NULL_HANDLE;
+  OwnedMemory memory_;
   OwnedChild<VkBuffer, vkDestroyBuffer> buffer_;
-  OwnedChild<VkDeviceMemory, vkFreeMemory> memory_;
   OwnedChild<VkBufferView, vkDestroyBufferView> view_;
+  PendingTicket ticket_;
   VkDeviceSize size_ = 0;
   std::byte* mapped_ = nullptr;
 };
@@ -63,8 +114,12 @@ class Image {
   // One component of all layers of another image, which must stay: shaders that sample it find it in x, and a download
   // gives nothing else. `format`: of the component.
   Image(const Device& device, const char* name, const Image& of, VkFormat format, int component);
+  // Somebody else's view, which must stay, of an image that is in this layout where it is bound.
+  Image(VkImageView lent, VkImageLayout layout, const ImageDesc& desc) : lent_(lent), layout_(layout), desc_(desc) {}
   VkImage handle() const { return component_ ? component_->of : image_.get(); }
-  VkImageView view() const { return view_.get(); }                                  // all layers
+  VkImageView view() const { return lent_ ? lent_ : view_.get(); }  // all layers
+  VkImageLayout layout() const { return layout_; }
+  bool isLent() const { return lent_ != VK_NULL_HANDLE; }
   VkImageView layerView(uint32_t layer) const { return layerViews_[layer].get(); }  // one layer, 2D
   const ImageDesc& desc() const { return desc_; }
   VkImageAspectFlags aspect() const;
@@ -78,14 +133,21 @@ class Image {
 
  private:
   std::optional<Component> component_;
+  VkImageView lent_ = VK_NULL_HANDLE;
+  VkImageLayout layout_ = VK_IMAGE_LAYOUT_GENERAL;
+  OwnedMemory memory_;
   OwnedChild<VkImage, vkDestroyImage> image_;
-  OwnedChild<VkDeviceMemory, vkFreeMemory> memory_;
+  PendingTicket ticket_;
   OwnedChild<VkImageView, vkDestroyImageView> view_;
   std::vector<OwnedChild<VkImageView, vkDestroyImageView>> layerViews_;
   ImageDesc desc_;
 };
 
-// Copies bytes in and waits.
+// From whatever an image held to GENERAL.
+void recordToGeneral(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, uint32_t layerCount);
+
+// Copies bytes in and waits. On a borrowed device that is only done with what was just made, and by the next command
+// buffer.
 void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> bytes);
 
 // Copies the first bytes out and waits.

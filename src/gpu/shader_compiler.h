@@ -21,6 +21,7 @@ struct ShaderSource {
   std::string path;  // "shadow/shade_visibility.comp.glsl", below the shaders folder; the stage is in the name
   // Replaces or adds files for the #include resolver: a user's own bias, a test's variant.
   std::map<std::string, std::string> overrides;
+  bool operator==(const ShaderSource&) const = default;
 };
 
 // Source with its #includes expanded, each file at most once, with #line directives that keep file names

@@ -55,9 +55,8 @@ MeshLinks linkMeshes(const Scene& scene, bool instanced) {
   return links;
 }
 
-float receiverMargin(const Scene& scene) {
+float receiverMargin(const Bounds& bounds) {
   constexpr float kUlps = 8.0f;  // kEndMarginUlps of truth/visibility.h, which derives it
-  const Bounds bounds = computeBounds(scene);
   float largest = 0.0f;
   for (int axis = 0; axis < 3; ++axis)
     largest = std::max({largest, std::abs(bounds.lower[axis]), std::abs(bounds.upper[axis])});

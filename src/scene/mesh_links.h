@@ -20,6 +20,6 @@ struct MeshLinks {
 MeshLinks linkMeshes(const Scene& scene, bool instanced);
 
 // LookupTables::endMargin: how far before a receiver's plane a surface must stand to shadow it, metres.
-float receiverMargin(const Scene& scene);
+float receiverMargin(const Bounds& sceneBoundsW);
 
 }  // namespace gnomon

@@ -1,7 +1,5 @@
 #include "scene/scene.h"
 
-#include "base/image.h"
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -74,18 +72,6 @@ bool computeClosed(const Mesh& mesh) {
   return std::all_of(edges.begin(), edges.end(), [&](uint64_t edge) {
     return std::binary_search(edges.begin(), edges.end(), edge >> 32 | edge << 32);
   });
-}
-
-glm::vec4 baseColorAt(const Scene& scene, const Material& material, glm::vec2 uv) {
-  if (material.baseColorTexture < 0) return material.baseColor;
-  const glsl::TextureTaps taps = glsl::textureTaps(scene.textures[material.baseColorTexture], uv);
-  glm::vec4 sum(0.0f);
-  for (int i = 0; i < 4; ++i) {
-    const glm::vec4 texel = glsl::unpackRgba8(scene.texels[taps.texel[i]]);
-    const glm::vec4 linear(linearFromSrgb(texel.x), linearFromSrgb(texel.y), linearFromSrgb(texel.z), texel.w);
-    sum += taps.weight[i] * linear;
-  }
-  return material.baseColor * sum;
 }
 
 Camera lookAt(std::string name, glm::vec3 eyeW, glm::vec3 targetW, float yFovRad) {

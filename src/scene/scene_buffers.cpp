@@ -43,15 +43,6 @@ std::vector<Bounds> partBounds(const Mesh& mesh) {
   return parts;
 }
 
-// A box around the box.
-Bounds transformed(const glm::mat4& worldFromMesh, const Bounds& bounds) {
-  const glm::vec3 center(worldFromMesh * glm::vec4(0.5f * (bounds.lower + bounds.upper), 1.0f));
-  const glm::vec3 half = 0.5f * (bounds.upper - bounds.lower);
-  glm::vec3 reach(0.0f);
-  for (int axis = 0; axis < 3; ++axis) reach += glm::abs(glm::vec3(worldFromMesh[axis])) * half[axis];
-  return {.lower = center - reach, .upper = center + reach};
-}
-
 // Before anything is uploaded, since it takes a while.
 void checkSize(const gpu::Device& device, const Scene& scene) {
   uint64_t vertices = 0, triangles = 0;
@@ -75,6 +66,14 @@ void append(std::vector<T>& all, const std::vector<T>& some) {
 }
 
 }  // namespace
+
+Bounds placedBounds(const glm::mat4& worldFromMesh, const Bounds& bounds) {
+  const glm::vec3 center(worldFromMesh * glm::vec4(0.5f * (bounds.lower + bounds.upper), 1.0f));
+  const glm::vec3 half = 0.5f * (bounds.upper - bounds.lower);
+  glm::vec3 reach(0.0f);
+  for (int axis = 0; axis < 3; ++axis) reach += glm::abs(glm::vec3(worldFromMesh[axis])) * half[axis];
+  return {.lower = center - reach, .upper = center + reach};
+}
 
 SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
   checkSize(device, scene);
@@ -117,7 +116,7 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
                              .firstPart = static_cast<uint32_t>(buffers.partBoundsW.size()),
                              .partCount = static_cast<uint32_t>(parts[instance.mesh].size())});
     for (const Bounds& part : parts[instance.mesh])
-      buffers.partBoundsW.push_back(transformed(instance.worldFromMesh, part));
+      buffers.partBoundsW.push_back(placedBounds(instance.worldFromMesh, part));
     instances.push_back({.worldFromMesh = instance.worldFromMesh,
                          .firstTriangle = firstIndex / 3,
                          .material = static_cast<uint32_t>(mesh.material),
@@ -134,7 +133,7 @@ SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene) {
   buffers.meshRows = gpu::createTexelsWith(device, "mesh rows", VK_FORMAT_R32G32B32A32_UINT,
                                            fit ? links.rows : std::vector<glsl::MeshRow>());
   buffers.triangleFacts = gpu::createBufferWith(device, "triangle facts", links.facts);
-  buffers.endMargin = receiverMargin(scene);
+  buffers.endMargin = receiverMargin(computeBounds(scene));
   buffers.ids = numberTriangles(triangleCounts, buffers.firstTriangles, buffers.instanced);
   for (size_t i = 0; i < instances.size(); ++i) instances[i].firstId = buffers.ids.firstIds[i];
   buffers.idChunks = gpu::createBufferWith(device, "id chunks", buffers.ids.chunks);

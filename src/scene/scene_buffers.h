@@ -11,6 +11,17 @@
 
 namespace gnomon {
 
+// Where a mesh's corners are read as vertex attributes, instead of from SceneBuffers::positions and triangles: somebody
+// else's buffers.
+struct VertexSource {
+  gpu::Buffer vertices, indices;
+  VkDeviceSize vertexOffset = 0, indexOffset = 0;  // bytes, of the first vertex's position and of the first index
+  VkFormat format = VK_FORMAT_R32G32B32_SFLOAT;    // of a position
+  uint32_t stride = 12;                            // bytes
+  VkIndexType indexType = VK_INDEX_TYPE_UINT32;
+  uint32_t firstIndex = 0;  // that Draw::firstIndex stands for
+};
+
 // One instance's triangles. gl_InstanceIndex names the instance, gl_PrimitiveID counts from 0.
 struct Draw {
   uint32_t indexCount = 0;
@@ -26,6 +37,7 @@ struct Draw {
   Bounds boundsW;          // metres
   uint32_t firstPart = 0;  // in SceneBuffers::partBoundsW
   uint32_t partCount = 0;  // 0: not cut in parts
+  const VertexSource* source = nullptr;
 };
 
 // A large draw is cut in parts of as many indices, the last one less, so that a map's slice need not draw
@@ -54,6 +66,9 @@ struct SceneBuffers {
 inline uint32_t triangleId(const SceneBuffers& scene, uint32_t instance, uint32_t triangle) {
   return scene.ids.firstIds[instance] + (triangle - scene.firstTriangles[instance]);
 }
+
+// A box around a box, placed.
+Bounds placedBounds(const glm::mat4& worldFromMesh, const Bounds& bounds);
 
 SceneBuffers createSceneBuffers(const gpu::Device& device, const Scene& scene);
 

@@ -1,5 +1,7 @@
 #include "shadow/bounded_draws.h"
 
+#include "base/check.h"
+
 #include "shared/map.glsl"
 
 #include <algorithm>
@@ -46,11 +48,12 @@ const gpu::ComputeProgram& BoundedDraws::program(const std::string& shader) {
   return programs_.back()->program;
 }
 
-void BoundedDraws::makeRoom() {
-  if (triangles_.handle() != VK_NULL_HANDLE) return;
-  const VkDeviceSize most = kBatchTriangles + glsl::kMostExtraTriangles;
+void BoundedDraws::makeRoom(uint64_t triangles) {
+  if (room_ > 0) return;
+  room_ = std::clamp<uint64_t>(triangles, 1, kBatchTriangles);
+  const VkDeviceSize most = room_ + glsl::kMostExtraTriangles;
   triangles_ = gpu::Buffer(device_, {.name = "bounded triangles", .size = most * sizeof(glsl::BoundedTriangle)});
-  large_ = gpu::Buffer(device_, {.name = "large triangles", .size = kBatchTriangles * sizeof(glsl::LargeTriangle)});
+  large_ = gpu::Buffer(device_, {.name = "large triangles", .size = room_ * sizeof(glsl::LargeTriangle)});
   arguments_ =
       gpu::Buffer(device_, {.name = "bounded draw",
                             .size = sizeof(glsl::BoundedDraw) + 2 * most * sizeof(uint32_t),
@@ -59,20 +62,27 @@ void BoundedDraws::makeRoom() {
                                        std::vector<glsl::BoundedDraw>{{.instanceCount = 1, .one = 1, .oneMore = 1}});
 }
 
+void BoundedDraws::prepare(const SliceShaders& shaders, uint64_t triangles) {
+  makeRoom(triangles);
+  program(shaders.bounds);
+  if (*shaders.largeBounds != '\0') program(shaders.largeBounds);
+}
+
 void BoundedDraws::record(gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& mapUniforms,
                           const SliceShaders& shaders, int slice, const Batch& batch) {
-  makeRoom();
+  makeRoom(kBatchTriangles);
+  uint64_t triangles = 0;
+  for (const Piece& piece : batch) triangles += piece.triangleCount;
+  GNOMON_CHECK_LE(triangles, room_);
   const auto bindingsOf = [&](const gpu::ComputeProgram& found) {
-    std::vector<gpu::Binding> bindings = {
-        {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},
-        {glsl::kBindInstances, scene.instances}, {glsl::kBindUvs, scene.uvs},
-        {glsl::kBindMap, mapUniforms},           {glsl::kBindBoundedTriangles, triangles_},
-        {glsl::kBindBoundedDraw, arguments_},    {glsl::kBindLargeTriangles, large_}};
-    std::erase_if(bindings, [&](const gpu::Binding& binding) {
-      return std::ranges::none_of(found.interface().bindings,
-                                  [&](const auto& declared) { return declared.index == binding.index; });
-    });
-    return bindings;
+    return gpu::declaredBy(found, {{glsl::kBindPositions, scene.positions},
+                                   {glsl::kBindTriangles, scene.triangles},
+                                   {glsl::kBindInstances, scene.instances},
+                                   {glsl::kBindUvs, scene.uvs},
+                                   {glsl::kBindMap, mapUniforms},
+                                   {glsl::kBindBoundedTriangles, triangles_},
+                                   {glsl::kBindBoundedDraw, arguments_},
+                                   {glsl::kBindLargeTriangles, large_}});
   };
   commands.copy(noArguments_, arguments_, sizeof(glsl::BoundedDraw));
   commands.barrier("the count is zero -> triangles are counted");

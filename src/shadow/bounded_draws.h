@@ -30,6 +30,9 @@ class BoundedDraws {
   static constexpr uint32_t kBatchTriangles = 1u << 18;  // 53 MiB with what they may be cut into
   static std::vector<Batch> batches(const std::vector<Piece>& pieces);
 
+  // Makes and compiles all that record() needs of so many triangles, all instances' together.
+  void prepare(const SliceShaders& shaders, uint64_t triangles);
+
   // Makes the list of one batch for a slice; a draw may read it after.
   void record(gpu::Commands& commands, const SceneBuffers& scene, const gpu::Buffer& mapUniforms,
               const SliceShaders& shaders, int slice, const Batch& batch);
@@ -43,10 +46,11 @@ class BoundedDraws {
     gpu::ComputeProgram program;
   };
   const gpu::ComputeProgram& program(const std::string& shader);
-  void makeRoom();
+  void makeRoom(uint64_t triangles);
 
   const gpu::Device& device_;
   gpu::Buffer triangles_, large_, arguments_, noArguments_;  // made at the first use
+  uint64_t room_ = 0;                                        // triangles of a batch that they hold
   std::vector<std::unique_ptr<Entry>> programs_;
 };
 

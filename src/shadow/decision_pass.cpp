@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kDecisionShader = "shadow/decide_methods.comp.glsl";
 constexpr size_t kFlagsOfAWord = 4;  // methods
-constexpr uint32_t kFirstMethodConstant = 13;
+constexpr uint32_t kFirstMethodConstant = 14;
 
 size_t flagPlanes(size_t methods) {
   return (methods + kFlagsOfAWord - 1) / kFlagsOfAWord;
@@ -83,10 +83,10 @@ const gpu::ComputeProgram& DecisionPass::program(const VariantKey& key) {
                                                 {.id = 3, .value = key.sliceCount},
                                                 {.id = 4, .value = key.instanced},
                                                 {.id = 5, .value = key.channels},
-                                                {.id = 12, .value = static_cast<int32_t>(key.methods.size())}};
+                                                {.id = 13, .value = static_cast<int32_t>(key.methods.size())}};
   for (size_t i = 0; i < key.methods.size(); ++i)
     constants.push_back({.id = kFirstMethodConstant + static_cast<uint32_t>(i), .value = key.methods[i]});
-  gpu::ComputeProgram made = createLookupProgram(device_, kDecisionShader, key.user, constants);
+  gpu::ComputeProgram made = createLookupProgram(device_, shaderWith(kDecisionShader, key.user), key.user, constants);
   variants_.push_back(std::make_unique<Variant>(Variant{key, std::move(made)}));
   return variants_.back()->program;
 }
@@ -112,7 +112,7 @@ void DecisionPass::record(gpu::Commands& commands, const SceneBuffers& scene, co
   all.resize(glsl::kMostTogether);
   gpu::upload(device_, params_, std::as_bytes(std::span(all)));
   gpu::upload(device_, uniforms_, gpu::asPush(shade));
-  std::vector<gpu::Binding> bindings = lookupBindings(scene, gbuffer, map, noIds_);
+  std::vector<gpu::Binding> bindings = lookupBindings(scene, gbuffer, uniforms_, map, noIds_);
   bindings.insert(bindings.end(),
                   {{glsl::kBindShade, uniforms_}, {glsl::kBindMethodParams, params_}, {glsl::kBindDecisions, planes_}});
   commands.dispatch(program, groupCount_, {}, bindings);

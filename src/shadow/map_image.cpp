@@ -155,9 +155,9 @@ void MapImage::recordDrawing(gpu::Commands& commands, const MapRenderer& rendere
   renderer.record(commands, scene, *this, light, cull);
 }
 
-void MapImage::recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+void MapImage::recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const ReceiverPicture& receivers,
                                 VisibilityPass& pass, const ShadowLookup& lookup) const {
-  pass.record(commands, scene, gbuffer, *this, lookup);
+  pass.record(commands, scene, receivers, *this, lookup);
 }
 
 bool MapImage::recordDecisions(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
@@ -192,13 +192,14 @@ std::vector<float> MapImage::downloadSecondDepth(const gpu::Device& device) cons
 
 MapRenderer::MapRenderer(const gpu::Device& device) : device_(device), computePrograms_(device), bounded_(device) {}
 
-MapRenderer::Key MapRenderer::keyOf(const Slice& slice, bool masked) const {
+MapRenderer::Key MapRenderer::keyOf(const Slice& slice, bool masked, const VertexSource* source) const {
   Key key{.shaders = slice.map.fitted().shaders,
           .pass = slice.shaderPass,
           .masked = masked,
           .mapKind = slice.map.kind(),
           .viewMask = slice.targets.viewMask,
           .stored = writtenBy(slice.pass, slice.map.channels())};
+  if (source != nullptr) key.vertexStreams.push_back({.format = source->format, .stride = source->stride});
   for (const gpu::ColorTarget& color : slice.targets.colors)
     key.colorFormats.push_back(color.image != nullptr ? color.image->desc().format : VK_FORMAT_UNDEFINED);
   return key;
@@ -210,22 +211,26 @@ const gpu::GraphicsProgram& MapRenderer::program(const Key& key) const {
   // Stands for shadow/store_channels.glsl.
   static const std::map<std::string, std::string> kStoreInOrder = {
       {"shadow/store_channels.glsl", "#include \"shadow/store_in_order.glsl\"\n"}};
-  gpu::GraphicsDesc desc{.name = key.ordered()                    ? "draw two depths"
-                                 : key.pass == glsl::kPassNearest ? "draw depth"
-                                                                  : "draw second depth",
-                         .vertex = {key.shaders.vertex, {}},
-                         .fragment = {.path = key.needsFragments() ? key.shaders.fragment : "",
-                                      .overrides = key.ordered() ? kStoreInOrder : decltype(kStoreInOrder){}},
-                         .specializations = {{.id = 0, .value = key.masked ? 1 : 0},
-                                             {.id = 1, .value = key.pass},
-                                             {.id = 2, .value = key.mapKind},
-                                             {.id = 3, .value = key.viewMask != 0 ? 1 : 0},
-                                             {.id = 4, .value = key.stored}},
-                         .colorFormats = key.colorFormats,
-                         .depthFormat = key.ordered() ? VK_FORMAT_UNDEFINED : VK_FORMAT_D32_SFLOAT,
-                         .depthCompare = VK_COMPARE_OP_LESS,
-                         .viewMask = key.viewMask,
-                         .ordered = key.ordered()};
+  static const std::map<std::string, std::string> kAttributes = {
+      {"shadow/vertex_position.glsl", "#include \"shadow/vertex_attribute.glsl\"\n"}};
+  gpu::GraphicsDesc desc{
+      .name = key.ordered()                    ? "draw two depths"
+              : key.pass == glsl::kPassNearest ? "draw depth"
+                                               : "draw second depth",
+      .vertex = {key.shaders.vertex, key.vertexStreams.empty() ? decltype(kAttributes){} : kAttributes},
+      .fragment = {.path = key.needsFragments() ? key.shaders.fragment : "",
+                   .overrides = key.ordered() ? kStoreInOrder : decltype(kStoreInOrder){}},
+      .specializations = {{.id = 0, .value = key.masked ? 1 : 0},
+                          {.id = 1, .value = key.pass},
+                          {.id = 2, .value = key.mapKind},
+                          {.id = 3, .value = key.viewMask != 0 ? 1 : 0},
+                          {.id = 4, .value = key.stored}},
+      .colorFormats = key.colorFormats,
+      .depthFormat = key.ordered() ? VK_FORMAT_UNDEFINED : VK_FORMAT_D32_SFLOAT,
+      .depthCompare = VK_COMPARE_OP_LESS,
+      .viewMask = key.viewMask,
+      .ordered = key.ordered(),
+      .vertexStreams = key.vertexStreams};
   if (key.pass == glsl::kPassBlend) {
     desc.depthCompare = VK_COMPARE_OP_GREATER;
     desc.depthWrite = false;
@@ -255,23 +260,39 @@ void MapRenderer::recordCorners(gpu::Commands& commands, const SceneBuffers& sce
       size_t next = 0;
       while (next < shown.size() && !wanted(next)) ++next;
       if (next == shown.size()) continue;
-      const Key key = keyOf(slice, masked);
-      const gpu::GraphicsProgram& drawn = program(key);
-      const auto pushed = [&] { return gpu::asPush(push).first(drawn.interface().pushConstantBytes); };
-      commands.bind(drawn, pushed(), bindingsOf(drawn, scene, slice.map, bounded_, slice.index));
+      std::optional<Key> key;  // of the program that is bound
+      const gpu::GraphicsProgram* drawn = nullptr;
+      const VertexSource* source = nullptr;
+      const auto pushed = [&] { return gpu::asPush(push).first(drawn->interface().pushConstantBytes); };
+      const auto bind = [&](const VertexSource* from) {
+        const Key other = keyOf(slice, masked, from);
+        if (key != other) {
+          key = other;
+          drawn = &program(other);
+          commands.bind(*drawn, pushed(), bindingsOf(*drawn, scene, slice.map, bounded_, slice.index));
+        }
+        source = from;
+        if (from == nullptr) {
+          commands.bindIndexBuffer(scene.triangles);
+          return;
+        }
+        commands.bindVertexStream(from->vertices, from->vertexOffset);
+        commands.bindIndexBuffer(from->indices, from->indexOffset, from->indexType);
+      };
       const bool clockwise = (group == Group::MirroredSolids) != mirrors;
       commands.setCulling(group == Group::Sheets ? VK_CULL_MODE_NONE
                           : backFaces            ? VK_CULL_MODE_FRONT_BIT
                                                  : VK_CULL_MODE_BACK_BIT,
                           clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-      commands.bindIndexBuffer(scene.triangles);
       for (; next < shown.size(); ++next) {
         if (!wanted(next)) continue;
+        if (!key || source != scene.draws[next].source) bind(scene.draws[next].source);
+        const uint32_t sourceFirst = source != nullptr ? source->firstIndex : 0;
         for (const SliceCulling::Range& range : shown[next]) {
           push.rangeTriangle = range.firstIndex / 3;
           push.rangeId = triangleId(scene, scene.draws[next].instance, push.rangeTriangle);
-          if (key.needsFragments()) commands.push(drawn, pushed());
-          commands.drawIndexed(range.indexCount, 1, range.firstIndex, 0, scene.draws[next].instance);
+          if (key->needsFragments()) commands.push(*drawn, pushed());
+          commands.drawIndexed(range.indexCount, 1, range.firstIndex - sourceFirst, 0, scene.draws[next].instance);
         }
       }
     }
@@ -303,7 +324,7 @@ void MapRenderer::recordBounds(gpu::Commands& commands, const SceneBuffers& scen
     for (const BoundedDraws::Batch& batch : BoundedDraws::batches(pieces)) {
       bounded_.record(commands, scene, slice.map.uniforms(), shaders, slice.index, batch);
       commands.beginRendering(targets);
-      const gpu::GraphicsProgram& drawn = program(keyOf(slice, masked));
+      const gpu::GraphicsProgram& drawn = program(keyOf(slice, masked, nullptr));
       commands.bind(drawn, gpu::asPush(push).first(drawn.interface().pushConstantBytes),
                     bindingsOf(drawn, scene, slice.map, bounded_, slice.index));
       commands.drawIndirect(bounded_.arguments());
@@ -349,6 +370,7 @@ gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass) const
   gpu::RenderTargets targets;
   if (pass == ChannelPass::Both) {
     targets.ordered = true;
+    targets.kept = &map.orderedTargets_;
     targets.colors.push_back({.image = &map.depthsInOrder_, .clear = {{.float32 = {1.0f, 1.0f, 0.0f, 0.0f}}}});
     if (map.idsInOrder_.handle() != VK_NULL_HANDLE)
       targets.colors.push_back({.image = &map.idsInOrder_, .clear = {{.uint32 = {0, 0, 0, 0}}}});
@@ -377,41 +399,89 @@ gpu::RenderTargets MapRenderer::targetsOf(MapImage& map, ChannelPass pass) const
   return targets;
 }
 
+// In the order in which a slice is drawn.
+std::vector<ChannelPass> MapRenderer::passesOf(const MapImage& map) const {
+  const auto writes = [&](ChannelPass pass) { return writtenBy(pass, map.channels()) != 0; };
+  std::vector<ChannelPass> passes;
+  if (map.drawsInOrder()) {
+    passes.push_back(ChannelPass::Both);
+  } else {
+    if (writes(ChannelPass::Nearest)) passes.push_back(ChannelPass::Nearest);
+    if (writes(ChannelPass::Second)) passes.push_back(ChannelPass::Second);
+  }
+  if (writes(ChannelPass::BackFaces)) passes.push_back(ChannelPass::BackFaces);
+  return passes;
+}
+
+MapRenderer::Slice MapRenderer::sliceOf(MapImage& map, int first, int count, ChannelPass pass) const {
+  const int shaderPass = pass == ChannelPass::Both           ? glsl::kPassOrdered
+                         : pass != ChannelPass::Second       ? glsl::kPassNearest
+                         : map.second_ == SecondLayer::Blend ? glsl::kPassBlend
+                                                             : glsl::kPassPeel;
+  Slice slice{map, first, count, pass, shaderPass, targetsOf(map, pass)};
+  if (count > 1)
+    slice.targets.viewMask = (1u << count) - 1u;
+  else
+    slice.targets.layer = static_cast<uint32_t>(first);
+  return slice;
+}
+
 void MapRenderer::recordSlices(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map,
                                const LightModel& light, CullMode cull, bool multiview) const {
   const int count = multiview ? map.sliceCount() : 1;
-  const auto recordPass = [&](int first, ChannelPass pass) {
-    const bool backFaces = pass == ChannelPass::BackFaces;
-    const Grouping groupOf = [&](const Draw& draw) {
-      const bool culled = (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
-      return !culled ? Group::Sheets : draw.mirrored ? Group::MirroredSolids : Group::Solids;
-    };
-    const int shaderPass = pass == ChannelPass::Both           ? glsl::kPassOrdered
-                           : pass != ChannelPass::Second       ? glsl::kPassNearest
-                           : map.second_ == SecondLayer::Blend ? glsl::kPassBlend
-                                                               : glsl::kPassPeel;
-    Slice slice{map, first, count, pass, shaderPass, targetsOf(map, pass)};
-    if (multiview)
-      slice.targets.viewMask = (1u << count) - 1u;
-    else
-      slice.targets.layer = static_cast<uint32_t>(first);
-    if (*map.fitted().shaders.bounds == '\0')
-      recordCorners(commands, scene, slice, groupOf);
-    else
-      recordBounds(commands, scene, slice, groupOf);
-  };
-  const auto writes = [&](ChannelPass pass) { return writtenBy(pass, map.channels()) != 0; };
+  const std::vector<ChannelPass> passes = passesOf(map);
   for (int first = 0; first < map.sliceCount(); first += count) {
-    if (map.drawsInOrder()) {
-      recordPass(first, ChannelPass::Both);
-    } else if (writes(ChannelPass::Nearest)) {
-      recordPass(first, ChannelPass::Nearest);
+    for (const ChannelPass pass : passes) {
+      if (pass == ChannelPass::Second)
+        commands.barrier("the first layer's depth is written -> the second layer tests against it");
+      const bool backFaces = pass == ChannelPass::BackFaces;
+      const Grouping groupOf = [&](const Draw& draw) {
+        const bool culled = (cull == CullMode::Solids || backFaces) && draw.solid && !holdsLight(draw, light);
+        return !culled ? Group::Sheets : draw.mirrored ? Group::MirroredSolids : Group::Solids;
+      };
+      const Slice slice = sliceOf(map, first, count, pass);
+      if (*map.fitted().shaders.bounds == '\0')
+        recordCorners(commands, scene, slice, groupOf);
+      else
+        recordBounds(commands, scene, slice, groupOf);
     }
-    if (writes(ChannelPass::Second) && !map.drawsInOrder()) {
-      commands.barrier("the first layer's depth is written -> the second layer tests against it");
-      recordPass(first, ChannelPass::Second);
+  }
+}
+
+void MapRenderer::recordDrawnBy(gpu::Commands& commands, MapImage& map, const DrawSlice& draw) const {
+  const FittedMap& fitted = map.fitted();
+  GNOMON_CHECK(fitted.shaders.projective && fitted.shaders.rasterizedDepth);
+  GNOMON_CHECK_EQ(map.channels() & ~(glsl::kChannelDepth | glsl::kChannelIds), 0);
+  glm::mat4 lightFromWorld(glm::transpose(glm::mat3(fitted.frame.rightW, fitted.frame.upW, fitted.frame.backW)));
+  lightFromWorld[3] = glm::vec4(-(glm::mat3(lightFromWorld) * fitted.frame.originW), 1.0f);
+  for (int i = 0; i < map.sliceCount(); ++i) {
+    const Slice slice = sliceOf(map, i, 1, ChannelPass::Nearest);
+    commands.beginRendering(slice.targets);
+    draw(commands.handle(),
+         {.slice = i,
+          .side = fitted.map.width,
+          .clipFromWorld = fitted.map.mapSlices[i].clipFromLight * lightFromWorld,
+          .mirrors = (fitted.shaders.mirroredSlices >> i & 1u) != 0,
+          .idFormat = (map.channels() & glsl::kChannelIds) != 0 ? VK_FORMAT_R32_UINT : VK_FORMAT_UNDEFINED});
+    commands.endRendering();
+  }
+}
+
+void MapRenderer::prepare(const SceneBuffers& scene, MapImage& map) const {
+  const SliceShaders& shaders = map.fitted().shaders;
+  const bool bounds = *shaders.bounds != '\0';
+  uint64_t triangles = 0;
+  for (const Draw& draw : scene.draws) triangles += draw.indexCount / 3;
+  if (bounds) bounded_.prepare(shaders, triangles);
+  for (const ChannelPass pass : passesOf(map)) {
+    const Slice any = sliceOf(map, 0, 1, pass);
+    for (const Draw& draw : scene.draws) program(keyOf(any, draw.masked, bounds ? nullptr : draw.source));
+    for (int i = 0; pass == ChannelPass::Both && i < map.sliceCount(); ++i) {
+      Slice slice = sliceOf(map, i, 1, pass);
+      makeOrdered(device_, slice.targets, map.orderedTargets_);
+      for (gpu::ColorTarget& color : slice.targets.colors) color.clear.reset();
+      if (bounds) makeOrdered(device_, slice.targets, map.orderedTargets_);  // of a second batch
     }
-    if (writes(ChannelPass::BackFaces)) recordPass(first, ChannelPass::BackFaces);
   }
 }
 

@@ -35,7 +35,7 @@ class MapImage final : public Occluders {
 
   void recordDrawing(gpu::Commands& commands, const MapRenderer& renderer, const SceneBuffers& scene,
                      const LightModel& light, CullMode cull) override;
-  void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+  void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const ReceiverPicture& receivers,
                         VisibilityPass& pass, const ShadowLookup& lookup) const override;
   bool recordDecisions(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, DecisionPass& pass,
                        std::span<const BiasMethod* const> biases, std::span<const glsl::BiasParams> params,
@@ -65,7 +65,21 @@ class MapImage final : public Occluders {
   std::vector<std::pair<ChannelSet, gpu::Image>> images_;
   gpu::Image depthsInOrder_, idsInOrder_;  // pairs of which images_ holds the components, where they are drawn in order
   gpu::Image peelDepth_;                   // made at the first peel
+  gpu::OrderedTargets orderedTargets_;
 };
+
+// One slice for a renderer to draw by itself.
+struct SliceToDraw {
+  int slice = 0;
+  int side = 0;                                 // texels; viewport and scissor are set to them
+  glm::mat4 clipFromWorld{1.0f};                // Vulkan's clip space
+  bool mirrors = false;                         // what winds counter-clockwise seen from the light is clockwise on it
+  VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;  // test LESS; clamp depth, so that casters before the near end count
+  // Of colour 1, where the map has ids: location 1 stores a triangle's (triangleId in scene/scene_buffers.h). Colour 0
+  // is undefined then.
+  VkFormat idFormat = VK_FORMAT_UNDEFINED;
+};
+using DrawSlice = std::function<void(VkCommandBuffer commands, const SliceToDraw& slice)>;
 
 class MapRenderer {
  public:
@@ -77,6 +91,13 @@ class MapRenderer {
   // check of the device.
   void record(gpu::Commands& commands, const SceneBuffers& scene, MapImage& map, const LightModel& light,
               CullMode cull) const;
+
+  // The same, drawn by somebody else: `draw` is called once a slice, between the begin and the end of a rendering. Of
+  // maps of matrices with one layer, with or without ids.
+  void recordDrawnBy(gpu::Commands& commands, MapImage& map, const DrawSlice& draw) const;
+
+  // Compiles and makes all that record() will need of such a scene and map.
+  void prepare(const SceneBuffers& scene, MapImage& map) const;
 
   // Of what else is made of maps (ShadowVolume), compiled at first use.
   const gpu::ComputePrograms& programs() const { return computePrograms_; }
@@ -90,6 +111,7 @@ class MapRenderer {
     uint32_t viewMask;
     ChannelSet stored;  // what the pass writes
     std::vector<VkFormat> colorFormats;
+    std::vector<gpu::VertexStream> vertexStreams;  // of a VertexSource; none: the scene's tables
     // Or else the rasterizer's own depth is all that is stored.
     bool needsFragments() const { return masked || !shaders.rasterizedDepth || !colorFormats.empty(); }
     bool ordered() const { return pass == glsl::kPassOrdered; }
@@ -109,7 +131,9 @@ class MapRenderer {
     int shaderPass;  // glsl::kPass*
     gpu::RenderTargets targets;
   };
-  Key keyOf(const Slice& slice, bool masked) const;
+  Key keyOf(const Slice& slice, bool masked, const VertexSource* source) const;
+  std::vector<ChannelPass> passesOf(const MapImage& map) const;
+  Slice sliceOf(MapImage& map, int first, int count, ChannelPass pass) const;
   // How a draw's triangles are culled: sheets not at all, solids by the side they show the light.
   enum class Group { Sheets, Solids, MirroredSolids };
   using Grouping = std::function<Group(const Draw&)>;

@@ -4,7 +4,7 @@
 // which.
 
 #include "gpu/commands.h"
-#include "scene/gbuffer.h"
+#include "scene/receiver_picture.h"
 #include "shadow/filter.h"
 #include "shadow/parameterization.h"
 
@@ -39,6 +39,9 @@ struct ShadowLookup {
   // Of one picture: in one dispatch, whose pipeline compiles sooner than several that would take less time together.
   bool once = false;
   bool oneGroup = false;  // a corner of the picture only: so that pipelines are compiled
+  // Where visibility goes, instead of the pass's buffer: a storage image in GENERAL, R32_SFLOAT, R16_SFLOAT or
+  // R8_UNORM.
+  const gpu::Image* into = nullptr;
 };
 
 class Occluders {
@@ -49,12 +52,15 @@ class Occluders {
   int kind() const { return fitted_.map.kind; }              // glsl::kMap*
   const gpu::Buffer& uniforms() const { return uniforms_; }  // glsl::MapUniforms
 
+  // Another fit of the same map (kind, slices, size, shaders), for the commands that follow: the light has moved.
+  virtual void recordFit(gpu::Commands& commands, const FittedMap& fitted);
+
   // Draws them once more. `light` decides which solids may be culled (MapRenderer::record). A barrier must follow.
   virtual void recordDrawing(gpu::Commands& commands, const MapRenderer& renderer, const SceneBuffers& scene,
                              const LightModel& light, CullMode cull) = 0;
 
   // The visibility of each pixel, into the buffers of `pass`. The parameterization must support bias and filter.
-  virtual void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
+  virtual void recordVisibility(gpu::Commands& commands, const SceneBuffers& scene, const ReceiverPicture& receivers,
                                 VisibilityPass& pass, const ShadowLookup& lookup) const = 0;
 
   // What several biases say of each pixel, in one dispatch of `pass` (DecisionPass::record). False where these

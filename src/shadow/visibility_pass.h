@@ -2,7 +2,7 @@
 // The visibility pass (each pixel's visibility by a map, a bias and a filter) and the radiance pass (the shaded
 // picture).
 
-#include "scene/gbuffer.h"
+#include "scene/receiver_picture.h"
 #include "shadow/bias.h"
 #include "shadow/filter.h"
 #include "shadow/map_image.h"
@@ -16,28 +16,42 @@ namespace gnomon {
 glsl::ShadeUniforms shadeUniforms(const glsl::CameraView& camera, const LightModel& light,
                                   const glsl::BiasParams& bias);
 
-// Of a pass that looks pixels up in a map: of the scene, the G-buffer and the map. `noIds`: bound where a map has none.
-std::vector<gpu::Binding> lookupBindings(const SceneBuffers& scene, const GBuffer& gbuffer, const MapImage& map,
-                                         const gpu::Image& noIds);
+// Of a pass that looks pixels up in a map: of the scene, the receivers (whose `meaning` is in a buffer) and the map.
+// `noIds`: bound where a map has none.
+std::vector<gpu::Binding> lookupBindings(const SceneBuffers& scene, const ReceiverPicture& receivers,
+                                         const gpu::Buffer& meaning, const MapImage& map, const gpu::Image& noIds);
 gpu::Image createNoIds(const gpu::Device& device);
 // Throws WorldError that names a user's file and line where that does not compile.
-gpu::ComputeProgram createLookupProgram(const gpu::Device& device, const char* shader, const UserBias* user,
-                                        const std::vector<gpu::Specialization>& constants);
+gpu::ComputeProgram createLookupProgram(const gpu::Device& device, const gpu::ShaderSource& shader,
+                                        const UserBias* user, const std::vector<gpu::Specialization>& constants);
 
 // Work groups of kShadeGroupSide^2 for a picture of so many pixels.
 glm::uvec3 shadeGroups(int width, int height);
 
 class VisibilityPass {
  public:
-  VisibilityPass(const gpu::Device& device, int width, int height);
+  // Whether it has buffers for what it finds, or writes images alone (ShadowLookup::into) and diagnoses nothing.
+  enum class Output { Buffers, Images };
+  VisibilityPass(const gpu::Device& device, int width, int height, Output output = Output::Buffers);
 
   // Compiles its pipeline on first use; throws WorldError that names a user's file and line where that does
   // not compile. A diagnosis is of the unfiltered map: with a filter there is none.
-  void record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer, const MapImage& map,
+  void record(gpu::Commands& commands, const SceneBuffers& scene, const ReceiverPicture& receivers, const MapImage& map,
               const ShadowLookup& lookup);
+  // Compiles what that will need.
+  void prepare(const SceneBuffers& scene, ReceiverKind receivers, const MapImage& map, const ShadowLookup& lookup);
 
   // Before record(), whose pipeline is made for some of them.
   void setUniforms(const glsl::ShadeUniforms& uniforms);
+  // The same for the commands that follow, and what a renderer's depth means.
+  void recordUniforms(gpu::Commands& commands, const glsl::ShadeUniforms& uniforms,
+                      const glsl::ReceiverPicture& meaning);
+  const gpu::Buffer& receiverPicture() const { return receiverPicture_; }  // glsl::ReceiverPicture
+
+  // A shader of this pass or a volume's that stores visibility there: as it is, or in an image of that format.
+  static gpu::ShaderSource storingIn(gpu::ShaderSource source, const gpu::Image* image);
+  // What such a shader is given to store in.
+  gpu::Binding storage(const gpu::Image* image) const;
 
   // Of other looks-up into these buffers (ShadowVolume), compiled at first use.
   const gpu::ComputePrograms& programs() const { return programs_; }
@@ -56,6 +70,8 @@ class VisibilityPass {
   struct VariantKey {
     int32_t method, diagnose, mapKind, sliceCount, instanced, channels, filter, tapCount, masked, stage, witnessReach;
     const UserBias* user;
+    ReceiverKind receivers;
+    VkFormat stored;  // VK_FORMAT_UNDEFINED: in the buffer
     bool operator==(const VariantKey&) const = default;
   };
   struct Variant {
@@ -63,10 +79,13 @@ class VisibilityPass {
     gpu::ComputeProgram program;
   };
   const gpu::ComputeProgram& program(const VariantKey& key);
+  const gpu::ComputeProgram& programOf(const SceneBuffers& scene, ReceiverKind receivers, const MapImage& map,
+                                       const ShadowLookup& lookup, int stage);
+  static bool inStages(const ShadowLookup& lookup);
 
   const gpu::Device& device_;
   glm::uvec3 groupCount_;
-  gpu::Buffer uniforms_, visibility_, diagnosis_;
+  gpu::Buffer uniforms_, receiverPicture_, visibility_, diagnosis_;
   int witnessReach_ = 2;                  // of the uniforms
   gpu::Buffer walkers_, walkDispatches_;  // pixels that another dispatch shades (glsl::kStageLists)
   gpu::Image noIds_;                      // bound where a map has none

@@ -48,5 +48,33 @@ TEST(Features, OptionalOnesAreEnabledOnlyWhereTheyExist) {
   EXPECT_EQ(enabledExtensions(capabilities).size(), 1u);
 }
 
+TEST(Features, WhatACallerDoesNotSwitchOnIsNamed) {
+  VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+  EXPECT_GT(notEnabled(info).size(), 10u);
+  const Capabilities capabilities = sufficient();
+  Features features = enabledFeatures(capabilities);
+  features.chain(false);
+  const std::vector<const char*> extensions = enabledExtensions(capabilities);
+  info.pNext = &features.core;
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
+  EXPECT_EQ(notEnabled(info), std::vector<std::string>());
+  EXPECT_FALSE(enablesOrderedAccess(info));
+  features.v13.synchronization2 = VK_FALSE;
+  ASSERT_EQ(notEnabled(info).size(), 1u);
+  EXPECT_TRUE(notEnabled(info)[0].starts_with("synchronization2"));
+  // In a struct of the extension that became part of 1.3, and core features without the struct around them.
+  VkPhysicalDeviceSynchronization2Features own{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES};
+  own.synchronization2 = VK_TRUE;
+  features.v13.dynamicRendering = features.v13.maintenance4 = VK_FALSE;
+  features.v12.pNext = &own;
+  EXPECT_EQ(notEnabled(info).size(), 2u);
+  const VkPhysicalDeviceFeatures core = features.core.features;
+  info.pNext = &features.v11;
+  EXPECT_GT(notEnabled(info).size(), 5u);
+  info.pEnabledFeatures = &core;
+  EXPECT_EQ(notEnabled(info).size(), 2u);
+}
+
 }  // namespace
 }  // namespace gnomon::gpu

@@ -273,7 +273,7 @@ TEST_F(DensityOnTheGpu, IsThatOfTheCpu) {
   grid->tree().addTile(2, openvdb::Coord(128, 0, 0), 0.5f, true);
   write(path("noise.vdb"), {grid});
   const DensityGrid density(path("noise.vdb"), {});
-  const DensityBuffers buffers(device(), density);
+  const DensityBuffers buffers = createDensityBuffers(device(), density);
   std::vector<DensityQuery> queries(gpu::kKernelInputCount);
   const Bounds bounds = density.boundsW();
   for (size_t n = 0; n < queries.size(); ++n) {

@@ -71,7 +71,7 @@ MediaWorld::MediaWorld(const gpu::Device& device, const MediaSetup& given)
   commands.submitAndWait();
   if (!setup.density.empty()) {
     density = std::make_unique<DensityGrid>(setup.density, DensityPlacement{});
-    densityBuffers = std::make_unique<DensityBuffers>(device, *density);
+    densityBuffers = std::make_unique<DensityBuffers>(createDensityBuffers(device, *density));
   }
   pass.setMedium(view, setup.medium, densityBuffers.get());
 }

@@ -3,7 +3,9 @@
 
 #include "scene/generate.h"
 #include "tests/gpu_fixture.h"
+#include "vsv/media/density.h"
 #include "vsv/media/media_pass.h"
+#include "vsv/media/media_receivers.h"
 #include "vsv/shadow_volume.h"
 #include "vsv/volume_parameterization.h"
 

@@ -5,8 +5,8 @@
 // A point's density is the grid's value there, trilinear, and 0 where that is negative or outside of the
 // active voxels' box (grown by one voxel, over which the values fall to the background).
 
-#include "gpu/resources.h"
 #include "truth/media_reference.h"
+#include "vsv/media/density_buffers.h"
 
 #include "shared/density.glsl"
 
@@ -51,15 +51,6 @@ class DensityGrid final : public DensityField {
 };
 
 // A grid in a device's memory. Throws WorldError where it is larger than the device's largest buffer.
-struct DensityBuffers {
-  DensityBuffers(const gpu::Device& device, const DensityGrid& grid);
-  gpu::Buffer words;  // NanoVDB
-  gpu::Buffer place;  // glsl::DensityPlace, a uniform buffer
-  Bounds boundsW;
-  double voxelMetres;
-};
-
-// How the table of density between a light and the points about it is laid out for these bounds.
-glsl::LightReach lightReach(const Bounds& boundsW, double voxelMetres, const glm::dvec3& lightW);
+DensityBuffers createDensityBuffers(const gpu::Device& device, const DensityGrid& grid);
 
 }  // namespace gnomon

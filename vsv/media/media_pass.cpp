@@ -21,8 +21,25 @@ uint32_t groups(int count, int size) {
   return static_cast<uint32_t>((count + size - 1) / size);
 }
 
-VkDeviceSize pictureBytes(int width, int height) {
+VkDeviceSize pictureBytes(int width, int height, MediaPass::Output output) {
+  if (output == MediaPass::Output::Images) return 0;
   return static_cast<VkDeviceSize>(width) * static_cast<VkDeviceSize>(height) * sizeof(glm::vec3);
+}
+
+// Takes the place of vsv/store_scattered.glsl.
+std::string storageIn(VkFormat format) {
+  if (format != VK_FORMAT_R16G16B16A16_SFLOAT && format != VK_FORMAT_R32G32B32A32_SFLOAT)
+    throw WorldError(
+        fmt::format("scattered light in an image of VkFormat {}: make it R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT",
+                    static_cast<int>(format)));
+  return fmt::format(
+      "#include \"shared/media_pass.glsl\"\n"
+      "layout(binding = kBindInScattered, {}) uniform image2D inScatteredImage;\n"
+      "vec3 scatteredBefore(ivec2 pixel, int width) {{ return imageLoad(inScatteredImage, pixel).xyz; }}\n"
+      "void storeScattered(ivec2 pixel, int width, vec3 light) {{\n"
+      "  imageStore(inScatteredImage, pixel, vec4(light, 0.0f));\n"
+      "}}\n",
+      format == VK_FORMAT_R16G16B16A16_SFLOAT ? "rgba16f" : "rgba32f");
 }
 
 glsl::MediaPush pushFor(const MediaLightSource& light, const MediaMethod& method, bool add) {
@@ -50,40 +67,29 @@ MediaLightSource mediaLight(const Light& light) {
   return source;
 }
 
-std::vector<glm::dvec3> mediaReceiversW(const glsl::CameraView& camera, const Receivers& receivers, double reach) {
-  const glm::dvec3 eyeW(camera.eyeW);
-  std::vector<glm::dvec3> ends(receivers.states.size() + 1, eyeW);
-  for (size_t i = 0; i < receivers.states.size(); ++i) {
-    const int x = static_cast<int>(i) % receivers.width, y = static_cast<int>(i) / receivers.width;
-    const glm::dvec3 dir = glm::normalize(glm::dvec3(glsl::pixelDirection(camera, x, y)));
-    double end = reach;
-    if (receivers.states[i] != PixelState::Empty)
-      end = std::min(end, glm::dot(receivers.samples[i].positionW - eyeW, dir));
-    ends[i] = eyeW + dir * end;
-  }
-  return ends;
-}
-
 float defaultReach(const Scene& scene, const glm::vec3& eyeW) {
   const Bounds bounds = computeBounds(scene);
   return glm::length(glm::max(glm::abs(bounds.lower - eyeW), glm::abs(bounds.upper - eyeW)));
 }
 
-MediaPass::MediaPass(const gpu::Device& device, int width, int height)
+MediaPass::MediaPass(const gpu::Device& device, int width, int height, Output output)
     : device_(device),
       programs_(device),
       groupCount_(groups(width, glsl::kMediaGroupSide), groups(height, glsl::kMediaGroupSide), 1),
       uniforms_(
           device,
           {.name = "media uniforms", .size = sizeof(glsl::MediaUniforms), .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
+      receiverPicture_(device, {.name = "receiver picture",
+                                .size = sizeof(glsl::ReceiverPicture),
+                                .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT}),
       running_(device, {.name = "running integral",
                         .format = VK_FORMAT_R32G32B32A32_SFLOAT,
                         .width = glsl::kTableColumns,
                         .height = glsl::kTableRows,
                         .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}),
-      inScattered_(device, {.name = "in-scattered light", .size = pictureBytes(width, height)}),
-      surfaces_(device, {.name = "surfaces in the medium", .size = pictureBytes(width, height)}),
-      radiance_(device, {.name = "radiance with the medium", .size = pictureBytes(width, height)}) {}
+      inScattered_(device, {.name = "in-scattered light", .size = pictureBytes(width, height, output)}),
+      surfaces_(device, {.name = "surfaces in the medium", .size = pictureBytes(width, height, output)}),
+      radiance_(device, {.name = "radiance with the medium", .size = pictureBytes(width, height, output)}) {}
 
 void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& medium, const DensityBuffers* density) {
   density_ = density;
@@ -93,6 +99,14 @@ void MediaPass::setMedium(const glsl::CameraView& camera, const glsl::Medium& me
     eyeDepth_ = gpu::Buffer(device_, {.name = "density to the eye", .size = inScattered_.size() / 3});
   }
   gpu::upload(device_, uniforms_, gpu::asPush(glsl::MediaUniforms{.camera = camera, .medium = medium}));
+}
+
+void MediaPass::recordMedium(gpu::Commands& commands, const glsl::CameraView& camera, const glsl::Medium& medium,
+                             const glsl::ReceiverPicture& meaning) {
+  density_ = nullptr;
+  commands.update(uniforms_, gpu::asPush(glsl::MediaUniforms{.camera = camera, .medium = medium}));
+  commands.update(receiverPicture_, gpu::asPush(meaning));
+  commands.barrier("the medium's numbers are written -> tables and view rays read them");
 }
 
 void MediaPass::recordTable(gpu::Commands& commands, const Occluders& occluders, const MediaLightSource& light) {
@@ -114,30 +128,51 @@ void MediaPass::recordTable(gpu::Commands& commands, const Occluders& occluders,
   commands.endStage();
 }
 
-void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
-                       const Occluders& occluders, const MediaLightSource& light, const MediaMethod& method, bool add) {
+const gpu::ComputeProgram& MediaPass::integratorProgram(const SceneBuffers& scene, ReceiverKind receivers,
+                                                        const Occluders& occluders, const MediaMethod& method,
+                                                        const gpu::Image* into) const {
+  std::vector<gpu::Specialization> constants = {{.id = 4, .value = scene.instanced ? 1 : 0},
+                                                ReceiverPicture::constant(receivers)};
+  if (method.readsDepths()) constants.push_back({.id = 0, .value = occluders.kind()});
+  gpu::ShaderSource source = ReceiverPicture::shader({method.integrator->shader, {}}, receivers);
+  if (into != nullptr) source.overrides["vsv/store_scattered.glsl"] = storageIn(into->desc().format);
+  return programs_.get(source, constants);
+}
+
+void MediaPass::prepare(const SceneBuffers& scene, ReceiverKind receivers, const Occluders& occluders,
+                        const MediaMethod& method, const gpu::Image* into) {
+  if (occluders.bits() != nullptr) programs_.get("vsv/tabulate_scattering.comp.glsl");
+  integratorProgram(scene, receivers, occluders, method, into);
+}
+
+void MediaPass::record(gpu::Commands& commands, const SceneBuffers& scene, const ReceiverPicture& receivers,
+                       const Occluders& occluders, const MediaLightSource& light, const MediaMethod& method, bool add,
+                       const gpu::Image* into) {
   GNOMON_CHECK_EQ(method.readsDepths(), occluders.bits() == nullptr);
   GNOMON_CHECK(method.steps > 0 || (!method.integrator->takesSteps && density_ == nullptr));
-  std::vector<gpu::Binding> bindings = {
-      {glsl::kBindPositions, scene.positions}, {glsl::kBindTriangles, scene.triangles},
-      {glsl::kBindInstances, scene.instances}, {glsl::kBindPrimitiveIds, gbuffer.primitiveIds()},
-      {glsl::kBindMedia, uniforms_},           {glsl::kBindInScattered, inScattered_},
-      {glsl::kBindMap, occluders.uniforms()}};
+  std::vector<gpu::Binding> bindings = {{glsl::kBindPositions, scene.positions},
+                                        {glsl::kBindTriangles, scene.triangles},
+                                        {glsl::kBindInstances, scene.instances},
+                                        {glsl::kBindMedia, uniforms_},
+                                        into != nullptr ? gpu::Binding{glsl::kBindInScattered, *into}
+                                                        : gpu::Binding{glsl::kBindInScattered, inScattered_},
+                                        {glsl::kBindMap, occluders.uniforms()}};
+  receivers.bind(bindings, receiverPicture_);
   const glsl::MediaPush push = pushFor(light, method, add);
-  const gpu::Specialization instanced{.id = 4, .value = scene.instanced ? 1 : 0};
   commands.beginStage("media integrate");
   if (density_ != nullptr) {
-    recordDensity(commands, occluders, light, push, instanced, std::move(bindings));
+    GNOMON_CHECK(receivers.kind() == ReceiverKind::GBuffer && into == nullptr);
+    recordDensity(commands, occluders, light, push, {.id = 4, .value = scene.instanced ? 1 : 0}, std::move(bindings));
   } else {
-    std::vector<gpu::Specialization> constants = {instanced};
     if (method.readsDepths()) {
-      constants.push_back({.id = 0, .value = occluders.kind()});
       bindings.emplace_back(glsl::kBindMapDepth, occluders.depth());
     } else {
       bindings.emplace_back(glsl::kBindBits, *occluders.bits());
       bindings.emplace_back(glsl::kBindRunning, running_);
     }
-    commands.dispatch(programs_.get(method.integrator->shader, constants), groupCount_, gpu::asPush(push), bindings);
+    const gpu::ComputeProgram& program = integratorProgram(scene, receivers.kind(), occluders, method, into);
+    const bool all = receivers.kind() == ReceiverKind::GBuffer;
+    commands.dispatch(program, groupCount_, gpu::asPush(push), all ? bindings : gpu::declaredBy(program, bindings));
   }
   commands.endStage();
 }

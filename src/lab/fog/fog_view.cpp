@@ -113,7 +113,7 @@ FogView lookIntoFog(const SceneView& scene, ShadowPasses& passes, const std::vec
   if (medium.density) {
     diagonal = std::min(diagonal, static_cast<double>(medium.density->boundsW().diagonal()));
     view.density = medium.density;
-    view.densityBuffers = std::make_shared<const DensityBuffers>(scene.device(), *medium.density);
+    view.densityBuffers = std::make_shared<const DensityBuffers>(createDensityBuffers(scene.device(), *medium.density));
   }
   const glm::vec3 grey(static_cast<float>(kDefaultOpticalDepth / std::max(diagonal, 1e-6)));
   view.medium = {.sigmaS = medium.sigmaS.value_or(grey), .sigmaA = medium.sigmaA, .g = medium.g};

@@ -6,6 +6,7 @@
 #include "truth/media_reference.h"
 #include "vsv/media/density.h"
 #include "vsv/media/media_pass.h"
+#include "vsv/media/media_receivers.h"
 
 #include <optional>
 
