@@ -32,6 +32,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr uint64_t kMostOfPipe = uint64_t{1} << 30;
 constexpr std::string_view kAsidePrefix = ".gnomon-", kAsideSuffix = ".tmp";
 
 WorldError writeError(const fs::path& path, int error) {
@@ -145,19 +146,6 @@ bool isOfTheKernel(const fs::path& path) {
          isBelow(folder, "/sys");
 }
 
-fs::path followed(const fs::path& path) {
-  constexpr int kMostLinks = 40;  // as the kernel
-  fs::path at = path;
-  std::error_code failure;
-  for (int i = 0; i < kMostLinks; ++i) {
-    if (!fs::is_symlink(fs::symlink_status(at, failure))) return at;
-    const fs::path link = fs::read_symlink(at, failure);
-    if (failure) throw fileError(path.string(), "cannot be followed", failure.message());
-    at = at.parent_path() / link;  // an absolute one stays as it is
-  }
-  throw fileError(path.string(), "is a symbolic link that ends nowhere", "name a file");
-}
-
 enum class Kind { StandardOutput, Through, Regular };
 
 struct Target {
@@ -183,7 +171,7 @@ Target targetOf(const fs::path& path) {
     target.kind = isStandard ? Kind::StandardOutput : Kind::Through;
     return target;
   }
-  target.path = followed(path);
+  target.path = followLinks(path);
   if (isOfTheKernel(target.path)) throw fileError(path.string(), "is no device", "write to another folder");
   return target;
 }
@@ -263,6 +251,19 @@ int Descriptor::release() noexcept {
   return std::exchange(number_, -1);
 }
 
+fs::path followLinks(const fs::path& path) {
+  constexpr int kMostLinks = 40;  // as the kernel
+  fs::path at = path;
+  std::error_code failure;
+  for (int i = 0; i < kMostLinks; ++i) {
+    if (!fs::is_symlink(fs::symlink_status(at, failure))) return at;
+    const fs::path link = fs::read_symlink(at, failure);
+    if (failure) throw fileError(path.string(), "cannot be followed", failure.message());
+    at = at.parent_path() / link;  // an absolute one stays as it is
+  }
+  throw fileError(path.string(), "is a symbolic link that ends nowhere", "name a file");
+}
+
 void writeFile(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   const Target target = targetOf(path);
   if (target.kind == Kind::Regular) return replaceWhole(target, path, write);
@@ -306,6 +307,13 @@ bool isStream(const fs::path& path) {
   return path == "-" || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
 }
 
+std::string readRegularFile(const fs::path& path, uint64_t most) {
+  std::error_code failure;
+  if (fs::exists(path, failure) && !fs::is_directory(path, failure) && !fs::is_regular_file(path, failure))
+    throw fileError(path.string(), "is no regular file", "name one");
+  return readFile(path, most);
+}
+
 std::string readFile(const fs::path& path, uint64_t most) {
   std::error_code failure;
   if (fs::is_directory(path, failure)) throw fileError(path.string(), "is a folder", "name a file");
@@ -315,8 +323,11 @@ std::string readFile(const fs::path& path, uint64_t most) {
     return fileError(path.string(), fmt::format("has more than {} bytes", most), "name a smaller file");
   };
   struct stat status = {};
-  if (::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode) && static_cast<uint64_t>(status.st_size) > most)
-    throw tooLarge();
+  if (::fstat(file.get(), &status) != 0) throw fileError(path.string(), "cannot be read", std::strerror(errno));
+  // Its end may never come.
+  if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) throw fileError(path.string(), "is a device", "name a file");
+  if (!S_ISREG(status.st_mode)) most = std::min(most, kMostOfPipe);
+  if (S_ISREG(status.st_mode) && static_cast<uint64_t>(status.st_size) > most) throw tooLarge();
   // One byte more than it says, to see its end; what is no file says 0.
   constexpr size_t kChunk = 1 << 16;
   std::string bytes(static_cast<size_t>(std::max<off_t>(status.st_size, 0)) + 1, '\0');

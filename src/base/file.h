@@ -25,11 +25,18 @@ void writeTextFile(const std::filesystem::path& path, std::string_view text);
 // go to standard output, where the two could not be told apart.
 void checkOutput(const std::filesystem::path& path);
 
+// Where the symbolic links at the end of a path lead, whether there is something or not; the path itself where it is
+// none. Throws WorldError where they go round.
+std::filesystem::path followLinks(const std::filesystem::path& path);
+
 // Whether it is "-", a device or a pipe, whose name tells nothing of what is to be written.
 bool isStream(const std::filesystem::path& path);
 
-// The whole file as bytes. Throws WorldError, also where it has more than `most`.
+// The whole file as bytes. Throws WorldError, also where it has more than `most`, and of a device. A pipe is read to
+// its end, of at most 1 GiB.
 std::string readFile(const std::filesystem::path& path, uint64_t most = uint64_t{8} << 30);
+// The same of a regular file alone: for names that another file gives, where a pipe would be waited for.
+std::string readRegularFile(const std::filesystem::path& path, uint64_t most = uint64_t{8} << 30);
 
 // A name for what is written aside in a folder, unlike any other's. A file or folder of such a name is held (flock) as
 // long as it is being written.

@@ -10,6 +10,7 @@
 #include "cli/output_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
+#include "cli/unused_flags.h"
 #include "cli/verbs.h"
 #include "cli/wrap.h"
 #include "lab/compare/equal_error.h"
@@ -78,6 +79,9 @@ int runCompare(const CompareFlags& flags) {
 
   const Session session = openSession(flags.scene);
   chooseUsualMap(flags.method, session, options);
+  const UnusedFlags unused(*flags.method.verb);
+  unused.tellUnless(!flags.untilError.empty(), "--until-map-size", "it is of --until-error");
+  unused.tellUnless(!flags.out.empty(), "--exposure", "it is of the pictures, which -o writes");
   for (const Threshold& threshold : thresholds) checkMeansARow(threshold, options);
   const InterruptGuard guard;
   options.soFar = [&](const Comparison& soFar) {

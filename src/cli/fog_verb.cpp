@@ -9,6 +9,7 @@
 #include "cli/output_flags.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
+#include "cli/unused_flags.h"
 #include "cli/verbs.h"
 #include "lab/core/maps.h"
 #include "lab/fog/density_sequence.h"
@@ -53,6 +54,7 @@ struct FogFlags {
   std::optional<int> firstFrame;
   std::string move;
   std::optional<float> exposure;
+  const CLI::App* verb = nullptr;  // which knows what was given
 };
 
 // Of the reference. Steps through a density cost four times as much for each halving.
@@ -250,6 +252,28 @@ FogOptions fogOptions(const FogFlags& flags, const glm::dvec3& originW) {
   return options;
 }
 
+void tellUnusedFlags(const FogFlags& flags, const FogOptions& options) {
+  const UnusedFlags unused(*flags.verb);
+  unused.tellUnless(flags.truth, "--bound", "it is of the reference, which --truth makes");
+  unused.tellUnless(flags.truth, "--no-cache", "it is of the reference, which --truth makes");
+  const auto usesMap = [](const Integrator* integrator) { return integrator->reads == Integrator::Reads::Depths; };
+  unused.tellUnless(std::ranges::any_of(options.integrators, usesMap), "--march-map",
+                    "march is not among --integrators");
+  const bool usesVolume = !std::ranges::all_of(options.integrators, usesMap);
+  for (const MapOption* option : volumeParameterization().options())
+    unused.tellUnless(usesVolume, option->flag(), "march alone uses no shadow volume");
+  unused.tellUnless(!flags.out.empty() && std::filesystem::path(flags.out).extension() != ".exr", "--exposure",
+                    "it is of PNG pictures, which -o writes");
+}
+
+void tellStandingLights(const FogFlags& flags, const FogOptions& options, const Session& session) {
+  if (!options.motion) return;
+  for (const Light& light : lightsAsked(session.setup(), session.tracer()))
+    if (orbitLeaves(*options.motion, light, session.tracer().boundsW()))
+      fmt::print(stderr, "gnomon: note: --move {}: light '{}' is on the axis, and does not move\n", flags.move,
+                 light.name);
+}
+
 // What a picture changes with other steps, which is about what it errs by where they are half as many.
 void tellError(const FogResult& result) {
   if (result.rows.size() < 2 || result.reference || result.rows[0].integrator != result.rows[1].integrator) return;
@@ -278,6 +302,8 @@ int runFogVerb(const FogFlags& flags) {
   ResultFolder folder(isFolder ? flags.out : "", "results.json");
   const Session session = openSession(flags.scene);
   FogOptions options = fogOptions(flags, session.scene().originW);
+  tellUnusedFlags(flags, options);
+  tellStandingLights(flags, options, session);
   const InterruptGuard guard;
   options.outDir = folder.aside();
   FogResult result = runFog(session, options);
@@ -373,6 +399,7 @@ void addIntegrationFlags(CLI::App& verb, FogFlags& flags) {
 
 Run addFog(CLI::App* verb) {
   auto flags = std::make_shared<FogFlags>();
+  flags->verb = verb;
   addSceneFlags(*verb, flags->scene);
   addExposureFlag(*verb, flags->exposure);
   verb->get_option("--exposure")->group("View and device");

@@ -42,6 +42,10 @@ void refuseEmptyWords(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
     if (word.empty()) throw UsageError(fmt::format("the word after '{}' is empty; give a value", argv[i - 1]));
+    // "-o=out" is -o with the value "=out".
+    if (word.size() > 2 && word[0] == '-' && word[1] != '-' && word[2] == '=')
+      throw UsageError(
+          fmt::format("{}: write {} {}", word, word.substr(0, 2), word.size() > 3 ? word.substr(3) : "VALUE"));
     if (word.starts_with("--") && word.ends_with('=')) throw UsageError(fmt::format("{} is empty; give a value", word));
   }
 }

@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <string>
 
 #include <fmt/format.h>
@@ -39,11 +40,34 @@ std::string readAll(int descriptor) {
   }
 }
 
-// A line of Gnomon's that does not take a library that finds no memory for one that is not there.
+// A line of Gnomon's that does not take a library that finds no memory for one that is not there, or for a broken file.
 bool isOwnComplaint(const std::string& said) {
   return said.starts_with("gnomon: ") && std::count(said.begin(), said.end(), '\n') == 1 &&
-         said.find("install") == std::string::npos && said.find(".so") == std::string::npos;
+         said.find("install") == std::string::npos && said.find(".so") == std::string::npos &&
+         said.find("bad_alloc") == std::string::npos;
 }
+
+// Without memory of its own.
+void tellOutOfMemory() {
+  std::array<char, 256> line{};
+  const int length = std::snprintf(line.data(), line.size(),
+                                   "gnomon: out of memory: ulimit -v allows %llu MiB, and a small picture takes about "
+                                   "1500; raise it, or take a smaller scene or --size\n",
+                                   static_cast<unsigned long long>(addressLimit() >> 20));
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), static_cast<size_t>(length));
+}
+
+#if !defined(GNOMON_SANITIZED)  // whose own beginning comes first
+// Before the libraries' own beginnings: some make threads there, and no exception of theirs can be caught.
+void beginWithinMemoryLimit(int, char**, char**) {
+  if (!isMemoryLimited()) return;
+  std::set_terminate([] {
+    tellOutOfMemory();
+    ::_exit(1);
+  });
+}
+[[gnu::section(".preinit_array"), gnu::used]] void (*const kBegin)(int, char**, char**) = beginWithinMemoryLimit;
+#endif
 
 }  // namespace
 
@@ -53,10 +77,7 @@ bool isMemoryLimited() {
 
 int runWithinMemoryLimit(const std::function<int()>& work) {
   const auto outOfMemory = [] {
-    std::fprintf(stderr,
-                 "gnomon: out of memory: ulimit -v allows %llu MiB, and a small picture takes about 1500; raise it, or "
-                 "take a smaller scene or --size\n",
-                 static_cast<unsigned long long>(addressLimit() >> 20));
+    tellOutOfMemory();
     return 1;
   };
   std::array<int, 2> ends{};

@@ -1,12 +1,14 @@
 #include "cli/method_flags.h"
 
 #include "base/error.h"
+#include "cli/unused_flags.h"
 #include "lab/core/maps.h"
 
 #include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 namespace gnomon {
 
@@ -31,9 +33,42 @@ void checkMeaning(const CompareOptions& options, const Parameterization& map) {
   if (!left.empty()) fmt::print(stderr, "gnomon: {} stores no depths, so it skips {}\n", map.name(), left);
 }
 
+template <typename T, typename U>
+bool isIn(const std::vector<T>& list, U one) {
+  return std::ranges::find(list, one) != list.end();
+}
+
+// Each parameter and option says what it belongs to.
+void tellUnusedFlags(const CLI::App& verb, const CompareOptions& options) {
+  UnusedFlags unused(verb);
+  for (const BiasMethod& method : biasMethods()) {
+    const bool isUsed = std::ranges::any_of(options.biases, [&](const BiasMethod* bias) {
+      return bias->name == std::string_view(method.name) ||
+             (bias->sharesKnobsWith != nullptr && bias->sharesKnobsWith == std::string_view(method.name));
+    });
+    for (const Knob& knob : method.knobs)
+      unused.tellUnless(isUsed, knobFlag(method.name, knob), fmt::format("{} is not among --biases", method.name));
+  }
+  for (const Filter& filter : filters())
+    for (const Knob& knob : filter.knobs)
+      unused.tellUnless(isIn(options.filters, &filter), knobFlag(filter.name, knob),
+                        fmt::format("{} is not among --filters", filter.name));
+  for (const BiasChoice* choice : biasChoices())
+    unused.tellUnless(
+        std::ranges::any_of(options.biases, [&](const BiasMethod* bias) { return isIn(bias->choices, choice); }),
+        choice->flag(), "none of the --biases has this choice");
+  std::string maps;
+  for (const Parameterization* map : options.maps) maps += (maps.empty() ? "" : ", ") + std::string(map->name());
+  for (const MapOption* option : allMapOptions())
+    unused.tellUnless(
+        std::ranges::any_of(options.maps, [&](const Parameterization* map) { return isIn(map->options(), option); }),
+        option->flag(), fmt::format("the map {} has no such option", maps));
+}
+
 }  // namespace
 
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultBiases) {
+  flags.verb = &verb;
   addMapFlags(verb, flags.map);
   addBiasFlags(verb, flags.bias, defaultBiases);
 }
@@ -50,14 +85,16 @@ CompareOptions compareOptions(const MethodFlags& flags) {
 }
 
 void chooseUsualMap(const MethodFlags& flags, const Session& session, CompareOptions& options) {
-  if (!flags.map.maps.empty()) return;
-  const std::vector<Light> lights = lightsAsked(session.setup(), session.tracer());
-  LightType type = lights.empty() ? LightType::Point : lights.front().type;
-  // Who says where it shines, or how wide, wants a spot.
-  const bool hasCone = !session.setup().direction.empty() || session.setup().coneDegrees;
-  if (type == LightType::Point && hasCone) type = LightType::Spot;
-  options.maps = {&usualMapFor(type, options.mapOptions)};
-  mapSideOf(options, *options.maps.front());
+  if (flags.map.maps.empty()) {
+    const std::vector<Light> lights = lightsAsked(session.setup(), session.tracer());
+    LightType type = lights.empty() ? LightType::Point : lights.front().type;
+    // Who says where it shines, or how wide, wants a spot.
+    const bool hasCone = !session.setup().direction.empty() || session.setup().coneDegrees;
+    if (type == LightType::Point && hasCone) type = LightType::Spot;
+    options.maps = {&usualMapFor(type, options.mapOptions)};
+    mapSideOf(options, *options.maps.front());
+  }
+  tellUnusedFlags(*flags.verb, options);
 }
 
 }  // namespace gnomon

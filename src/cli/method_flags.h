@@ -9,12 +9,14 @@ namespace gnomon {
 struct MethodFlags {
   MapFlags map;
   BiasFlags bias;
+  const CLI::App* verb = nullptr;  // which knows what was given
 };
 void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultBiases);
 // Throws UsageError; says on the terminal what is left out because it means nothing on a map. Where no map is named it
 // stands for the one of chooseUsualMap, and is checked as if that were a cube.
 CompareOptions compareOptions(const MethodFlags& flags);
-// The map that suits the session's light, where none is named.
+// The map that suits the session's light, where none is named. Tells which flags that were given mean nothing to the
+// maps, biases and filters that are then chosen.
 void chooseUsualMap(const MethodFlags& flags, const Session& session, CompareOptions& options);
 
 }  // namespace gnomon

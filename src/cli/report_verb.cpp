@@ -1,9 +1,11 @@
+#include "base/error.h"
 #include "base/file.h"
 #include "base/terminal.h"
 #include "cli/offers.h"
 #include "cli/verbs.h"
 #include "lab/page/report.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -20,6 +22,9 @@ struct ReportFlags {
 };
 
 int runReport(const ReportFlags& flags) {
+  const std::string extension = std::filesystem::path(flags.out).extension().string();
+  if (extension != ".html" && extension != ".htm" && !isStream(flags.out))
+    throw UsageError(fmt::format("-o {}: the name must end in .html", flags.out));
   checkOutput(flags.out);
   writeTextFile(flags.out, reportHtml(flags.folder));
   say(fmt::format("wrote {}\n", flags.out));

@@ -33,9 +33,11 @@ const spvc_resource_type kRefused[] = {
 };
 
 void check(spvc_context context, spvc_result result) {
-  if (result != SPVC_SUCCESS)
-    throw WorldError(fmt::format("a shader's SPIR-V cannot be read: {}; empty the cache folder",
-                                 spvc_context_get_last_error_string(context)));
+  if (result == SPVC_SUCCESS) return;
+  const std::string error = spvc_context_get_last_error_string(context);
+  // It takes every exception for one about the SPIR-V.
+  if (result == SPVC_ERROR_OUT_OF_MEMORY || error.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+  throw WorldError(fmt::format("a shader's SPIR-V cannot be read: {}; empty the cache folder", error));
 }
 
 struct ResourceList {

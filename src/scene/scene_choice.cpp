@@ -57,13 +57,15 @@ std::vector<std::string> namesIn(const Scene& scene) {
 
 void setCasting(Scene& scene, const char* flag, const std::vector<std::string>& names, bool casts) {
   for (const std::string& name : names) {
-    bool found = false;
+    size_t count = 0;
     for (Instance& instance : scene.instances) {
       if (!isCalled(scene, instance, name)) continue;
       instance.casts = casts;
-      found = true;
+      ++count;
     }
-    if (!found) refuse(scene, flag, name);
+    if (count == 0) refuse(scene, flag, name);
+    scene.notes.push_back(fmt::format("{} {}: {} of {} instances {}", flag, name, count, scene.instances.size(),
+                                      casts ? "may cast a shadow" : "cast no shadow"));
   }
 }
 

@@ -146,6 +146,10 @@ std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, 
   bias->name = path.stem().string();
   bias->sentence = "Your own bias: " + bias->path;
   bias->knobSentence = fmt::format("a knob of {}", bias->path);
+  // The compiler would take it for the end.
+  if (const size_t zero = source.find('\0'); zero != std::string::npos)
+    throw lineError(*bias, 1 + static_cast<int>(std::count(source.begin(), source.begin() + zero, '\n')), "a zero byte",
+                    "write the file as text");
   readHeader(*bias);
   bias->knobsGlsl = knobsGlsl(bias->method.knobs);
   for (const BiasMethod& method : biasMethods())

@@ -198,6 +198,9 @@ void checkText(const UserBias& bias) {
     if (tokens[i].text == "#" && tokens[i + 1].text == "define" && tokens[i + 2].text == "main")
       throw WorldError(fmt::format("{}:{}: 'main' is the shader's that calls the bias; give the macro another name",
                                    bias.path, tokens[i].line));
+  if (std::ranges::none_of(tokens, [](const Token& token) { return token.text == "userLit"; }))
+    throw fileError(bias.path, "has no function userLit",
+                    "define bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap)");
   if (const int line = endlessLoop(bias.source))
     throw WorldError(fmt::format(
         "{}:{}: nothing ends this loop, and then Vulkan may do anything: lose the device, or go on with any result; "

@@ -130,6 +130,14 @@ TEST_F(FileTest, SymbolicLinksAreFollowed) {
   EXPECT_NE(messageOf([&] { writeTextFile(folder_ / "round", ""); }).find("ends nowhere"), std::string::npos);
 }
 
+TEST_F(FileTest, LinksToWhatIsNotThereAreFollowedToo) {
+  fs::create_symlink("elsewhere/folder", folder_ / "link");
+  EXPECT_EQ(followLinks(folder_ / "link"), folder_ / "elsewhere/folder");
+  EXPECT_EQ(followLinks(folder_ / "none"), folder_ / "none");
+  fs::create_symlink("round", folder_ / "round");
+  EXPECT_NE(messageOf([&] { followLinks(folder_ / "round"); }).find("ends nowhere"), std::string::npos);
+}
+
 TEST_F(FileTest, AFileKeepsItsPermissions) {
   const fs::path path = folder_ / "private";
   writeTextFile(path, "1");
@@ -172,7 +180,11 @@ TEST_F(FileTest, WhatCannotBeReadOrWrittenIsNamed) {
   EXPECT_NE(messageOf([&] { checkOutput(folder_ / "file" / "below"); }).find("not a folder"), std::string::npos);
   EXPECT_NE(messageOf([&] { readFile(folder_ / "file", 4); }).find("more than 4 bytes"), std::string::npos);
   EXPECT_EQ(readFile(folder_ / "file", 5), "12345");
-  EXPECT_NE(messageOf([&] { readFile("/dev/zero", 100'000); }).find("more than 100000 bytes"), std::string::npos);
+  EXPECT_NE(messageOf([&] { readFile("/dev/zero"); }).find("/dev/zero: is a device"), std::string::npos);
+  writeTextFile(folder_ / "long", std::string(100'001, 'x'));
+  EXPECT_NE(messageOf([&] { readFile(folder_ / "long", 100'000); }).find("more than 100000 bytes"), std::string::npos);
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_NE(messageOf([&] { readRegularFile(folder_ / "pipe"); }).find("is no regular file"), std::string::npos);
   checkOutput(folder_ / "new" / "below");
   EXPECT_FALSE(fs::exists(folder_ / "new"));
 }

@@ -86,6 +86,17 @@ TEST_F(ResultFolderTest, TwoAtOnceAreRefused) {
   }
 }
 
+TEST_F(ResultFolderTest, ALinkToAFolderThatIsNotThereMakesIt) {
+  fs::create_symlink("there", temporary_.path() / "link");
+  {
+    ResultFolder folder(temporary_.path() / "link", "results.json");
+    writeTextFile(folder.aside() / "results.json", "{}");
+    folder.publish();
+  }
+  EXPECT_TRUE(fs::is_symlink(temporary_.path() / "link"));
+  EXPECT_EQ(readFile(temporary_.path() / "there" / "results.json"), "{}");
+}
+
 TEST_F(ResultFolderTest, AListOfFilesElsewhereRemovesNothingThere) {
   const std::string outside = "precious";
   writeTextFile(temporary_.path() / "outside", outside);

@@ -129,6 +129,17 @@ Light lightAtFrame(const FogMotion& motion, const Light& start, const glm::vec3&
   return light;
 }
 
+bool orbitLeaves(const FogMotion& motion, const Light& light, const Bounds& boundsW) {
+  constexpr float kTiny = 1e-5f;  // of the scene's diagonal; radians
+  if (motion.degrees == 0.0) return false;
+  const bool isOnAxis =
+      light.type == LightType::Directional ||
+      glm::length(glm::cross(motion.axisW, light.positionW - boundsW.center())) <= kTiny * boundsW.diagonal();
+  const bool isAlongAxis =
+      light.type == LightType::Point || glm::length(glm::cross(motion.axisW, light.directionW)) <= kTiny;
+  return isOnAxis && isAlongAxis;
+}
+
 namespace {
 
 // What follows "orbit:".
@@ -148,7 +159,10 @@ FogMotion parseOrbit(const std::string& text, const std::string& orbit, int fram
   if (!degrees || !vector || *vector == glm::dvec3(0.0)) throw refuse();
   if (*degrees == 0.0 || std::abs(*degrees) > kMostOrbitDegrees)
     throw UsageError(fmt::format("--move {}: give degrees other than 0, at most {:g}", text, kMostOrbitDegrees));
-  return {.frames = frames, .degrees = *degrees, .axisW = glm::vec3(glm::normalize(*vector))};
+  // First by its largest component, whose square may be no number.
+  const glm::dvec3 size = glm::abs(*vector);
+  const glm::dvec3 unit = glm::normalize(*vector / std::max({size.x, size.y, size.z}));
+  return {.frames = frames, .degrees = *degrees, .axisW = glm::vec3(unit)};
 }
 
 }  // namespace

@@ -18,5 +18,7 @@ void runMotion(const SceneView& scene, ShadowPasses& passes, const FogOptions& o
 glm::vec3 placeAt(const FogMotion& motion, const glm::vec3& startW, int frame);
 // A light at a frame; an orbit's centre is the scene's.
 Light lightAtFrame(const FogMotion& motion, const Light& start, const glm::vec3& centerW, int frame);
+// Whether an orbit leaves a light where it is: one on the axis, which shines along it or to all sides.
+bool orbitLeaves(const FogMotion& motion, const Light& light, const Bounds& boundsW);
 
 }  // namespace gnomon

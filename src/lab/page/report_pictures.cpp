@@ -44,7 +44,7 @@ std::optional<EmbeddedPicture> ReportPictureShelf::embed(const std::string& path
   if (const auto found = embedded_.find(path); found != embedded_.end()) return found->second;
   try {
     if (!staysWithin(path)) throw fileError(path, "leaves the folder", "");
-    const std::string png = readFile(folder_ / path);
+    const std::string png = readRegularFile(folder_ / path);
     if (!png.starts_with(kPngSignature) || png.size() < 24) throw fileError(path, "is not a PNG", "");
     EmbeddedPicture picture{.id = fmt::format("picture-{}", embedded_.size() + 1),
                             .dataUri = asJpeg ? "data:image/jpeg;base64," + base64(jpegOf(png, path))

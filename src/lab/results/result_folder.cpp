@@ -52,7 +52,7 @@ std::string sumOf(const std::string& line) {
 // What a results file lists, nothing where it cannot be read: it is about to be replaced.
 FileSums listedIn(const fs::path& index) {
   try {
-    return parseJson<nlohmann::json>(readFile(index, kMostResultsBytes), {}).at("files").get<FileSums>();
+    return parseJson<nlohmann::json>(readRegularFile(index, kMostResultsBytes), {}).at("files").get<FileSums>();
   } catch (const std::exception&) {
     return {};
   }
@@ -63,7 +63,7 @@ FileSums listedIn(const fs::path& index) {
 ResultFolder::ResultFolder(const fs::path& folder, const char* index) : folder_(folder), index_(folder / index) {
   if (folder.empty()) return;
   std::error_code failure;
-  isNew_ = fs::create_directories(folder, failure);
+  isNew_ = fs::create_directories(followLinks(folder), failure);
   if (failure) throw fileError(folder.string(), "cannot make this folder", failure.message());
   lock_ = held(folder);
   collectLeftovers(folder);
@@ -76,7 +76,7 @@ ResultFolder::~ResultFolder() {
   std::error_code failure;
   if (aside_.empty()) return;
   fs::remove_all(aside_, failure);
-  if (isNew_) fs::remove(folder_, failure);  // where it is empty
+  if (isNew_) fs::remove(followLinks(folder_), failure);  // where it is empty
 }
 
 FileSums ResultFolder::files() const {

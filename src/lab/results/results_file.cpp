@@ -270,10 +270,12 @@ Results readResults(const fs::path& folder) {
   const fs::path path = folder / "results.json";
   if (!fs::exists(path))
     throw fileError(path.string(), "does not exist", "name a folder that gnomon compare -o or gnomon fog -o wrote");
-  const std::string text = readFile(path, kMostResultsBytes);
+  const std::string text = readRegularFile(path, kMostResultsBytes);
   Json json;
   try {
     json = parseJson<Json>(text, {.members = kMostMembers});
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw fileError(path.string(), "is not JSON", oneLine(error.what(), 160));
   }

@@ -1,0 +1,22 @@
+#pragma once
+// Flags that were given and change nothing, because what they belong to is not chosen: a line of each.
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon {
+
+class UnusedFlags {
+ public:
+  explicit UnusedFlags(const CLI::App& verb) : verb_(verb) {}
+  // Says so on standard error where the verb has this flag, and it was given, and is not used.
+  void tellUnless(bool isUsed, const std::string& flag, const std::string& why) const;
+
+ private:
+  const CLI::App& verb_;
+};
+
+}  // namespace gnomon
