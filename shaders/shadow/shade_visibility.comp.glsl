@@ -36,6 +36,7 @@ layout(scalar, binding = kBindWalkDispatch) buffer Dispatches { WalkDispatch wal
 
 #include "shadow/map_visibility.glsl"
 #include "shadow/receiver_fetch.glsl"
+#include "shadow/specialized_map.glsl"
 
 // Empty pixels are lit; a surface that faces away is not.
 float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosis) {
@@ -49,7 +50,7 @@ float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosi
       receiver.id = instances[instance].firstId + (id.triangle - instances[instance].firstTriangle);
     }
   }
-  return receiverVisibility(receiver, pixel, pixelDiagnosis);
+  return receiverVisibility(specializedMap(), receiver, pixel, pixelDiagnosis);
 }
 
 int walkerPlace(int list, uint place) {
