@@ -116,8 +116,8 @@ std::string compiled(Language language, const std::string& text) {
   return program.link(messages) ? "" : program.getInfoLog();
 }
 
-// GLSL, GLSL ES and HLSL by glslang. Apple's compiler there is none here, but Metal is C++14: parsed by the C++ compiler,
-// with a stand-in for its library.
+// GLSL, GLSL ES and HLSL by glslang. Apple's compiler there is none here, but Metal is C++14: parsed by the C++
+// compiler, with a stand-in for its library.
 TEST(Export, CompilesForEveryMapBiasAndFilter) {
   std::string metal = "#include <metal_stdlib>\n";
   size_t count = 0;
