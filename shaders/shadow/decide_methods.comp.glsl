@@ -29,10 +29,10 @@ layout(scalar, binding = kBindShade) uniform Shade { ShadeUniforms shade; };
 layout(scalar, binding = kBindMethodParams) uniform MethodParams { BiasParams methodParams[kMostTogether]; };
 layout(scalar, binding = kBindDecisions) writeonly buffer Decisions { uint decisions[]; };
 
-#include "shadow/fetch_channels.glsl"
-#include "shadow/map_constants.glsl"
+#include "shadow/fetch_tap.glsl"
 #include "shadow/receiver_fetch.glsl"
 #include "shadow/receiver_id.glsl"
+#include "shadow/specialized_map.glsl"
 
 // A receiver where it is looked up: its texel, and flags that all methods that ask there have in common.
 struct Asked {
@@ -75,8 +75,7 @@ void main() {
     return;
   }
   receiver.id = receiverId(id);
-  ShadowMap map = shadowMap;
-  map.sliceCount = kSliceCount;
+  ShadowMap map = specializedMap();
   Asked own = ask(map, receiver);
   write(plane, index, texelWord(own));
   // Of the constant METHOD: a call in place of a function of it, which would be compiled with all methods in it.

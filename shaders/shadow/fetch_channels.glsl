@@ -1,4 +1,4 @@
-// How a tap fetches what the channels of its texel hold (shared/channels.glsl).
+// Where what the channels of a texel hold (shared/channels.glsl) is fetched from.
 #ifndef GNOMON_FETCH_CHANNELS_GLSL
 #define GNOMON_FETCH_CHANNELS_GLSL
 
@@ -13,15 +13,16 @@ layout(binding = kBindBackDepth) uniform texture2DArray backDepthSlices;
 layout(binding = kBindIds) uniform usampler2DArray idSlices;
 layout(binding = kBindSecondIds) uniform utexture2DArray secondIdSlices;
 
-Tap fetchTap(ShadowMap map, int slice, ivec2 texel) {
-  Tap tap = emptyTap(slice, texel, mapTexelRay(map, slice, mapTexelCenter(map, texel)));
-  ivec3 at = ivec3(texel, slice);
-  if ((kChannels & kChannelDepth) != 0) tap.z1 = texelFetch(depthSlices, at, 0).x;
-  if ((kChannels & kChannelSecondDepth) != 0) tap.z2 = texelFetch(secondDepthSlices, at, 0).x;
-  if ((kChannels & kChannelBackDepth) != 0) tap.zBack = texelFetch(backDepthSlices, at, 0).x;
-  if ((kChannels & kChannelIds) != 0) tap.id1 = texelFetch(idSlices, at, 0).x;
-  if ((kChannels & kChannelSecondIds) != 0) tap.id2 = texelFetch(secondIdSlices, at, 0).x;
-  return tap;
+float fetchDepth(int slice, ivec2 texel) { return texelFetch(depthSlices, ivec3(texel, slice), 0).x; }
+float fetchSecondDepth(int slice, ivec2 texel) {
+  return texelFetch(secondDepthSlices, ivec3(texel, slice), 0).x;
+}
+float fetchBackDepth(int slice, ivec2 texel) {
+  return texelFetch(backDepthSlices, ivec3(texel, slice), 0).x;
+}
+uint fetchId(int slice, ivec2 texel) { return texelFetch(idSlices, ivec3(texel, slice), 0).x; }
+uint fetchSecondId(int slice, ivec2 texel) {
+  return texelFetch(secondIdSlices, ivec3(texel, slice), 0).x;
 }
 
 #endif

@@ -9,15 +9,9 @@
 #include "shared/filter.glsl"
 #include "shared/shade.glsl"
 
-#include "shadow/fetch_channels.glsl"
+#include "shadow/fetch_tap.glsl"
 
 #include "shadow/map_constants.glsl"
-
-ShadowMap specializedMap() {
-  ShadowMap map = shadowMap;
-  map.sliceCount = kSliceCount;
-  return map;
-}
 
 // The share of the filter's taps that are lit; taps that no slice holds count for nothing. Without a filter the one tap
 // is the texel that holds the receiver, and with kDiagnose what it said. One path for all: the bias is compiled once,
@@ -45,14 +39,16 @@ float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2
     found.slice = point.slice;
     found.texel = mapTexel(map, point.uv);
     found.held = true;
-    if (kFilter != kShadowFilterNone) found = mapTexelAcross(map, point.slice, wanted.texel, receiver.posL);
-    if (!found.held) continue;
+    if (kFilter != kShadowFilterNone) {
+      found = mapTexelAcross(map, point.slice, wanted.texel, receiver.posL);
+      if (!found.held) continue;
+    }
     Tap tap = fetchTap(map, found.slice, found.texel);
     bool known;
     bool tapLit;
 #ifdef GNOMON_SURFACE_VISIBILITY_GLSL
     if (kMethod >= kFirstSurfaceBias)
-      tapLit = surfaceBiasLit(kMethod, map, lookupTables(), shade.bias, receiver, tap, known);
+      tapLit = surfaceBiasLit(kMethod, map, lookupTables(map), shade.bias, receiver, tap, known);
     else
 #endif
       tapLit = biasLit(kMethod, map, shade.bias, receiver, tap, known);
@@ -69,9 +65,8 @@ float filteredVisibility(ShadowMap map, Receiver receiver, MapPoint point, ivec2
 }
 
 // What lies beyond the map is lit.
-float receiverVisibility(Receiver receiver, ivec2 pixel, inout PixelDiagnosis pixelDiagnosis) {
+float receiverVisibility(ShadowMap map, Receiver receiver, ivec2 pixel, inout PixelDiagnosis pixelDiagnosis) {
   pixelDiagnosis.flags = kPixelShaded;
-  ShadowMap map = specializedMap();
   receiver = biasReceiver(kMethod, map, shade.bias, receiver);
   MapPoint point = mapProject(map, receiver.posL);
   if (!point.covered) return 1.0f;

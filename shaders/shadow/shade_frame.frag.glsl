@@ -7,6 +7,7 @@ const int kDiagnose = 0;
 
 #include "shadow/frame_draw.glsl"
 #include "shadow/map_visibility.glsl"
+#include "shadow/specialized_map.glsl"
 #include "shadow/surface_light.glsl"
 
 layout(constant_id = 9) const int kMasked = 0;
@@ -34,7 +35,9 @@ void main() {
   receiver.posL = frame.eye.eyeL + fromEye;
   receiver.normalL = plane.normalL;
   PixelDiagnosis unasked;
-  float visible = reachAndFacing.z == 1.0f ? receiverVisibility(receiver, ivec2(gl_FragCoord.xy), unasked) : 0.0f;
+  float visible = 0.0f;
+  if (reachAndFacing.z == 1.0f)
+    visible = receiverVisibility(specializedMap(), receiver, ivec2(gl_FragCoord.xy), unasked);
 
   vec3 albedo = baseColor.xyz;
   if (kTextured == 1) albedo *= textureColorAt(textureIndex, uv);

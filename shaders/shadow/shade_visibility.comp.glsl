@@ -37,6 +37,7 @@ layout(scalar, binding = kBindWalkDispatch) buffer Dispatches { WalkDispatch wal
 #include "shadow/map_visibility.glsl"
 #include "shadow/receiver_fetch.glsl"
 #include "shadow/receiver_id.glsl"
+#include "shadow/specialized_map.glsl"
 
 // Empty pixels are lit; a surface that faces away is not.
 float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosis) {
@@ -44,7 +45,7 @@ float shadePixel(ivec2 pixel, PrimitiveId id, inout PixelDiagnosis pixelDiagnosi
   Receiver receiver;
   if (!fetchReceiver(pixel, id, receiver)) return 0.0f;
   receiver.id = receiverId(id);
-  return receiverVisibility(receiver, pixel, pixelDiagnosis);
+  return receiverVisibility(specializedMap(), receiver, pixel, pixelDiagnosis);
 }
 
 int walkerPlace(int list, uint place) {

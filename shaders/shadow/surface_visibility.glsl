@@ -12,7 +12,7 @@
 
 #include "shadow/map_constants.glsl"
 
-LookupTables lookupTables() {
+LookupTables lookupTables(ShadowMap map) {
   LookupTables tables;
   tables.frame = lightFrame;
   tables.positional = shade.positional;
@@ -20,8 +20,8 @@ LookupTables lookupTables() {
   tables.instanced = kInstanced;
   tables.idShift = idShift;
   tables.masked = kMaskedScene;
-  tables.mapWidth = shadowMap.width;
-  tables.mapHeight = shadowMap.height;
+  tables.mapWidth = map.width;
+  tables.mapHeight = map.height;
   return tables;
 }
 
@@ -44,11 +44,11 @@ bool witnessTap(ShadowMap map, Receiver receiver, MapPoint point, vec2 at, out b
   WitnessVerdict verdict = litWithoutWalk(map, asked);
   if (kStage == kStageLists) {
     WitnessQuestion question = witnessQuestion(map, target, asked);
-    TexelsToAsk ask = texelsToAsk(map, lookupTables(), question, receiver.id, kWitnessReach);
+    TexelsToAsk ask = texelsToAsk(map, lookupTables(map), question, receiver.id, kWitnessReach);
     pixelDiagnosis.flags |= ask.beyond != 0u ? kPixelWalksAcross : ask.held != 0u ? kPixelWalks : 0u;
   } else {
     WitnessAsking asking = WitnessAsking(kWitnessReach, kFilter != kShadowFilterNone, kStage != kStageWalks);
-    verdict = witnessVerdict(map, lookupTables(), asking, receiver, target, asked);
+    verdict = witnessVerdict(map, lookupTables(map), asking, receiver, target, asked);
   }
   lit = verdict.lit;
   if (kDiagnose == 1) {

@@ -48,4 +48,7 @@ GNOMON_SHARED_END
 #define atan2(y, x) atan(y, x)
 
 #endif
+
+// What only the headers for other renderers have (docs/glsl.md): Gnomon's own shaders have one map each.
+#define GNOMON_PUBLIC_ONLY(text)
 #endif

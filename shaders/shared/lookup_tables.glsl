@@ -50,6 +50,7 @@ struct LookupTables {
   int masked;        // 1: some material has holes
   int mapWidth;      // texels
   int mapHeight;
+  GNOMON_PUBLIC_ONLY(int source;)  // of the map, for your fetches
   GNOMON_CPP_ONLY(const HostTables* host;)
 };
 

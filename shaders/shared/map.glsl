@@ -54,6 +54,8 @@ struct ShadowMap {
   // is made of factors the sum, and then the bits are no longer the rasterizer's.
   vec2 clipDepth;
   EpipolarGrid epipolar;
+  GNOMON_PUBLIC_ONLY(LightFrame frame;)
+  GNOMON_PUBLIC_ONLY(int source;)  // which of your maps: for your fetches
   GNOMON_CPP_ONLY(MapSlice mapSlices[kMaxMapSlices];)
 };
 

@@ -26,6 +26,7 @@ struct RenderFlags {
   MethodFlags method;
   std::string out;
   std::string show = "beauty";
+  std::string prediction;
   const CLI::Option* biases = nullptr;
 };
 
@@ -53,7 +54,10 @@ int runRender(const RenderFlags& flags) {
   if (extension == ".exr") preloadImages();
   const Session session = openSession(flags.scene);
   chooseUsualMap(flags.method, session, options);
-  const RenderedPicture picture = renderPicture(session, options, flags.show);
+  if (!flags.prediction.empty() && flags.show != "labels")
+    throw UsageError("--prediction is another renderer's visibility, which is labelled: give --show labels");
+  const RenderedPicture picture = flags.prediction.empty() ? renderPicture(session, options, flags.show)
+                                                           : renderLabelsOf(session, options, flags.prediction);
   if (!picture.note.empty()) std::fprintf(stderr, "gnomon: %s\n", picture.note.c_str());
   if (extension == ".exr")
     writeExr(flags.out, picture.exr, picture.channels);
@@ -83,6 +87,10 @@ Run addRender(CLI::App* verb) {
           ->check(oneOf(picturesToShow()))
           ->capture_default_str(),
       picturesToShow());
+  offersFiles(verb->add_option("--prediction", flags->prediction,
+                               "with --show labels: another renderer's picture of the same scene, light and camera, "
+                               "white where lit, black in shadow, grey where it drew nothing; its labels' counts are "
+                               "told"));
   return [flags] { return runRender(*flags); };
 }
 

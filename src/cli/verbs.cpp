@@ -5,6 +5,7 @@ namespace gnomon {
 // Of the files <name>_verb.cpp.
 Verb compareVerb();
 Verb renderVerb();
+Verb exportVerb();
 Verb reportVerb();
 Verb fogVerb();
 Verb vsvVerb();
@@ -16,7 +17,7 @@ Verb completionVerb();
 Verb manVerb();
 
 const std::vector<Verb>& verbs() {
-  static const std::vector<Verb> all = {compareVerb(), renderVerb(),     reportVerb(), fogVerb(),
+  static const std::vector<Verb> all = {compareVerb(), renderVerb(), exportVerb(), reportVerb(), fogVerb(),
                                         vsvVerb(),     sceneVerb(),      benchVerb(),  reproduceVerb(),
                                         infoVerb(),    completionVerb(), manVerb()};
   return all;

@@ -360,5 +360,54 @@ TEST_F(CliTest, SceneListsAndInfoTells) {
     EXPECT_NE(help.out.find(option->flag() + " TEXT=" + option->defaultText()), std::string::npos) << option->flag();
 }
 
+TEST_F(CliTest, ExportWritesOneFileAndSaysWhatItCannot) {
+  const Result glsl = run("export --map cube --bias slope --filter bilinear --slope-factor 3");
+  EXPECT_EQ(glsl.exitCode, 0) << glsl.err;
+  EXPECT_NE(glsl.out.find("const float kGnomonSlopeFactor = 3.0f;"), std::string::npos);
+  EXPECT_NE(glsl.out.find("King, \"Shadow Mapping Algorithms\", 2004"), std::string::npos);  // the source
+  EXPECT_NE(glsl.out.find("gnomonDepth (binding 0)"), std::string::npos);
+  EXPECT_EQ(glsl.out.find("Adaptive"), std::string::npos);  // only what is used
+  const Result hlsl = run("export contact --map spot --bias constant --lang hlsl -o @/shadow.hlsl");
+  EXPECT_EQ(hlsl.exitCode, 0) << hlsl.err;
+  EXPECT_NE(readFile(folder_ / "shadow.hlsl").find("the diagonal of `contact`"), std::string::npos);
+  EXPECT_EQ(run("export --headers @/include").exitCode, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "include/gnomon/glsl/visibility.glsl"));
+  expectMistake("export --map vsv", 2, "compute passes");
+  expectMistake("export --bias slop", 2, "--bias slop: no such bias");
+  expectMistake("export --filter soft", 2, "--filter soft: no such filter");
+  expectMistake("export --row 2", 2, "--row needs --results");
+}
+
+TEST_F(CliTest, ExportTakesARowOfResults) {
+  ASSERT_EQ(run("compare contact --maps cube --size 64 --map-size 48 --biases constant --constant-offset 0.0625 "
+                "--repeats 1 --quiet -o @/out")
+                .exitCode,
+            0);
+  const Result row = run("export --results @/out --row 0 --lang glsl");
+  EXPECT_EQ(row.exitCode, 0) << row.err;
+  EXPECT_NE(row.out.find("const float kGnomonConstantOffset = 0.0625f;"), std::string::npos) << row.out.substr(0, 3000);
+  EXPECT_NE(row.out.find("const int kGnomonMapSide = 48;"), std::string::npos);
+  expectMistake("export --results @/out --bias slope", 2, "the row of the results has it already");
+  expectMistake("export --results @/out --row 7", 2, "has rows 0 to 0");
+}
+
+TEST_F(CliTest, RenderLabelsAnotherRenderersVisibility) {
+  ASSERT_EQ(run("render contact --maps cube --map-size 64 --size 64 --show truth -o @/truth.png --quiet").exitCode, 0);
+  const Result exact = run(
+      "render contact --maps cube --map-size 64 --size 64 --show labels --prediction @/truth.png -o @/l.png --quiet");
+  EXPECT_EQ(exact.exitCode, 0);
+  EXPECT_NE(exact.err.find("acne 0, leak 0, edge_shadow 0, edge_light 0"), std::string::npos) << exact.err;
+  ASSERT_EQ(
+      run("render contact --maps cube --map-size 64 --size 64 --biases none --show visibility -o @/none.png --quiet")
+          .exitCode,
+      0);
+  const Result none = run(
+      "render contact --maps cube --map-size 64 --size 64 --show labels --prediction @/none.png -o @/l.png --quiet");
+  EXPECT_EQ(none.err.find("acne 0,"), std::string::npos) << none.err;
+  expectMistake("render contact --size 32 --maps cube --show labels --prediction @/truth.png -o @/l.png", 2,
+                "is 64 x 64 pixels, the picture 32 x 32");
+  expectMistake("render contact --maps cube --prediction @/truth.png -o @/l.png", 2, "give --show labels");
+}
+
 }  // namespace
 }  // namespace gnomon

@@ -110,21 +110,21 @@ struct KnownIds {
   uint own, before1, before2, before3;  // the receiver's, and the last of others
 };
 
-GNOMON_FN bool isKnownId(KnownIds known, uint id) {
-  return id == kNoId || id == known.own || id == known.before1 || id == known.before2 || id == known.before3;
+GNOMON_FN bool isKnownId(KnownIds seen, uint id) {
+  return id == kNoId || id == seen.own || id == seen.before1 || id == seen.before2 || id == seen.before3;
 }
 
-GNOMON_FN TexelsToAsk withTexel(TexelsToAsk ask, bool held, bool known, int i) {
+GNOMON_FN TexelsToAsk withTexel(TexelsToAsk ask, bool held, bool isSeen, int i) {
   TexelsToAsk more = ask;
-  more.held |= held && !known ? 1u << uint(i) : 0u;
+  more.held |= held && !isSeen ? 1u << uint(i) : 0u;
   more.beyond |= held ? 0u : 1u << uint(i);
   return more;
 }
 
-GNOMON_FN KnownIds withId(KnownIds known, uint id) {
-  KnownIds more = known;
-  more.before3 = known.before2;
-  more.before2 = known.before1;
+GNOMON_FN KnownIds withId(KnownIds seen, uint id) {
+  KnownIds more = seen;
+  more.before3 = seen.before2;
+  more.before2 = seen.before1;
   more.before1 = id;
   return more;
 }
@@ -134,11 +134,11 @@ GNOMON_FN TexelsToAsk texelsToAsk(ShadowMap map, LookupTables tables, WitnessQue
   TexelsToAsk ask;
   ask.held = 0u;
   ask.beyond = 0u;
-  KnownIds known;
-  known.own = ownId;
-  known.before1 = ownId;
-  known.before2 = ownId;
-  known.before3 = ownId;
+  KnownIds seen;
+  seen.own = ownId;
+  seen.before1 = ownId;
+  seen.before2 = ownId;
+  seen.before3 = ownId;
   uvec4 ids = mapIdsAround(tables, question.slice, question.first);
   for (int i = 0; i < 4; ++i) {
     ivec2 offset = witnessOffset(i, question.nearest);
@@ -146,8 +146,8 @@ GNOMON_FN TexelsToAsk texelsToAsk(ShadowMap map, LookupTables tables, WitnessQue
     uint below = offset.x == 1 ? ids.w : ids.z;
     uint id = offset.y == 1 ? below : above;
     bool held = mapHoldsTexel(map, question.slice, wantedTexel(question, i));
-    if (isWanted(question, i)) ask = withTexel(ask, held, isKnownId(known, id), i);
-    if (held) known = withId(known, id);
+    if (isWanted(question, i)) ask = withTexel(ask, held, isKnownId(seen, id), i);
+    if (held) seen = withId(seen, id);
   }
   if (reach != 4) return ask;
   for (int i = 4; i < 20; ++i) {
@@ -155,8 +155,8 @@ GNOMON_FN TexelsToAsk texelsToAsk(ShadowMap map, LookupTables tables, WitnessQue
     ivec2 texel = wantedTexel(question, i);
     bool held = mapHoldsTexel(map, question.slice, texel);
     uint id = held ? mapIdAt(tables, question.slice, texel) : kNoId;
-    ask = withTexel(ask, held, isKnownId(known, id), i);
-    if (held) known = withId(known, id);
+    ask = withTexel(ask, held, isKnownId(seen, id), i);
+    if (held) seen = withId(seen, id);
   }
   return ask;
 }

@@ -59,17 +59,39 @@ RenderedPicture difference(const Subject& subject) {
   return {differencePicture(subject.receivers(), predicted, exact), values, {{"Y"}, "visibility - truth, -1 to 1"}, {}};
 }
 
-RenderedPicture labels(const Subject& subject) {
-  LightOnMap& lit = subject.lit;
-  const LabelledResult judged = lit.judge(subject.method);
-  const std::string title = fmt::format("{} {}, {} x {} texels", lit.parameterization().name(),
-                                        subject.method.bias->name, lit.fitted().map.width, lit.fitted().map.height);
+RenderedPicture labelled(const Subject& subject, const LabelImage& labels, const std::string& name) {
+  const LightOnMap& lit = subject.lit;
+  const std::string title = fmt::format("{} {}, {} x {} texels", lit.parameterization().name(), name,
+                                        lit.fitted().map.width, lit.fitted().map.height);
   std::vector<float> numbers;
-  for (const Label label : judged.labels.labels) numbers.push_back(static_cast<float>(label));
-  return {labelPicture(lit.receivers(), lit.truth(), judged.labels, title),
+  for (const Label label : labels.labels) numbers.push_back(static_cast<float>(label));
+  return {labelPicture(lit.receivers(), lit.truth(), labels, title),
           oneChannel(subject, numbers),
           {{"label"}, kLabelUnits},
           {}};
+}
+
+RenderedPicture labels(const Subject& subject) {
+  return labelled(subject, subject.lit.judge(subject.method).labels, subject.method.bias->name);
+}
+
+// Verdicts of a prediction; where nothing is scored none was asked for.
+std::vector<Verdict> verdictsOf(const ImageF& prediction, const Receivers& receivers) {
+  std::vector<Verdict> verdicts(receivers.states.size(), Verdict::NotAsked);
+  for (size_t i = 0; i < verdicts.size(); ++i) {
+    if (receivers.states[i] != PixelState::Scored) continue;
+    const float value = prediction.values[i * static_cast<size_t>(prediction.channels)];
+    verdicts[i] = value >= 0.75f ? Verdict::Lit : value <= 0.25f ? Verdict::Shadow : Verdict::Uncovered;
+  }
+  return verdicts;
+}
+
+std::string countsText(const LabelImage& labels, const Receivers& receivers) {
+  std::string text = fmt::format("of {} scored pixels", receivers.scored);
+  for (const Label label :
+       {Label::Agree, Label::Acne, Label::Leak, Label::EdgeShadow, Label::EdgeLight, Label::Uncovered})
+    text += fmt::format("{} {} {}", label == Label::Agree ? ":" : ",", labelName(label), labels.count(label));
+  return text;
 }
 
 RenderedPicture metres(const ImageF& depth) {
@@ -166,6 +188,28 @@ RenderedPicture renderPicture(const Session& session, const CompareOptions& opti
   RenderedPicture picture = shown->draw({lit, method, filterFor(options, *options.filters.front())});
   picture.note = lit.fitted().note;
   if (picture.channels.isColour) picture.exposure = lit.exposureFactor();
+  return picture;
+}
+
+RenderedPicture renderLabelsOf(const Session& session, const CompareOptions& options,
+                               const std::filesystem::path& prediction) {
+  const ImageF image = readImage(prediction);
+  const glsl::CameraView& view = session.view();
+  if (image.width != view.width || image.height != view.height)
+    throw UsageError(fmt::format("--prediction {}: is {} x {} pixels, the picture {} x {}; give its --size",
+                                 prediction.string(), image.width, image.height, view.width, view.height));
+  const Parameterization& map = *options.maps.front();
+  ShadowPasses passes(session);
+  LightOnMap lit = openLight(session, passes, map, mapSetupOf(options, map));
+  const Method method = methodFor(session, options, findBias("none"));
+  // Without a bias that moves the look-up: the texel that holds the point.
+  const std::vector<glsl::PixelDiagnosis> diagnosis = lit.diagnose(method);
+  const std::vector<Verdict> verdicts = verdictsOf(image, lit.receivers());
+  const LabelImage labels = labelPixels(session.tracer(), lit.light(), lit.receivers(), lit.truth(), verdicts,
+                                        [&](size_t pixel) { return texelRayW(lit.fitted(), diagnosis[pixel].texel); });
+  RenderedPicture picture =
+      labelled({lit, method, filterFor(options, *options.filters.front())}, labels, prediction.stem().string());
+  picture.note = countsText(labels, lit.receivers());
   return picture;
 }
 

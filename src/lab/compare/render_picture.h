@@ -23,4 +23,11 @@ std::vector<std::string> picturesToShow();
 // By the first map, bias and filter of the options. Throws UsageError, WorldError.
 RenderedPicture renderPicture(const Session& session, const CompareOptions& options, const std::string& show);
 
+// The labels of what another renderer drew of the same scene, light and camera, and in the note their counts.
+// `prediction`: a picture of the session's size, each pixel's visibility in its first channel: lit from 3/4 on, in
+// shadow up to 1/4; between them nothing was drawn, which is labelled uncovered. The first map is taken for the
+// other's: its texels say what the other's resolution is answerable for. Throws UsageError, WorldError.
+RenderedPicture renderLabelsOf(const Session& session, const CompareOptions& options,
+                               const std::filesystem::path& prediction);
+
 }  // namespace gnomon

@@ -1,0 +1,224 @@
+#include "base/error.h"
+#include "base/file.h"
+#include "base/suggest.h"
+#include "base/terminal.h"
+#include "cli/choice.h"
+#include "cli/offers.h"
+#include "cli/option_group.h"
+#include "cli/scene_flags.h"
+#include "cli/typed_command.h"
+#include "cli/verbs.h"
+#include "lab/export/export_shader.h"
+#include "lab/export/public_headers.h"
+#include "lab/results/results_file.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+namespace gnomon {
+
+namespace {
+
+struct ExportFlags {
+  SetupOptions setup;
+  std::string map = "cube", bias = kDefaultBias, filter = "none", language = "glsl";
+  std::string cubeDepth = "hyperbolic";
+  int cascades = 1;
+  int side = 1024;
+  std::string results;
+  std::optional<int> row;
+  std::map<std::string, float> knobs;          // flag -> value
+  std::map<std::string, std::string> choices;  // by flag
+  std::string out = "-";
+  std::string headers;
+  std::vector<const CLI::Option*> ofRow;  // that --results takes from the row
+};
+
+std::vector<std::string> exportedMaps() {
+  return {"cube", "paraboloid", "spot", "directional"};
+}
+
+// One of a list by its name. Throws UsageError.
+template <typename T>
+const T& named(const char* flag, const char* what, const std::string& name, const std::vector<T>& all) {
+  std::string names;
+  for (const T& one : all) {
+    if (name == one.name) return one;
+    names += (names.empty() ? "" : ", ") + std::string(one.name);
+  }
+  throw UsageError(fmt::format("{} {}: no such {}; {}", flag, name, what, chooseFrom(name, names)));
+}
+
+const Filter& filterNamed(const std::string& name) {
+  return named("--filter", "filter", name, filters());
+}
+
+const BiasMethod& biasNamed(const std::string& name) {
+  return named("--bias", "bias", name, biasMethods());
+}
+
+void takeKnobs(const char* owner, const std::vector<Knob>& knobs, const ExportFlags& flags, ExportChoice& choice) {
+  for (const Knob& knob : knobs) {
+    const std::string flag = knobFlag(owner, knob);
+    const auto found = flags.knobs.find(flag);
+    if (found == flags.knobs.end()) continue;
+    if (!(found->second >= knob.lower && found->second <= knob.upper))
+      throw UsageError(fmt::format("{} {:g} is outside {:g}..{:g} {}", flag, found->second, knob.lower, knob.upper,
+                                   unitName(knob.unit)));
+    choice.knobs[&knob] = found->second;
+  }
+}
+
+// The map, bias, filter and parameters of a row of results.json.
+void takeRow(ExportFlags& flags, ExportChoice& choice) {
+  const std::filesystem::path given = flags.results;
+  const Results results = readResults(std::filesystem::is_directory(given) ? given : given.parent_path());
+  const Comparison* comparison = std::get_if<Comparison>(&results);
+  if (comparison == nullptr)
+    throw UsageError(fmt::format("--results {}: holds media, not shadows on surfaces", flags.results));
+  const int count = static_cast<int>(comparison->rows.size());
+  const int wanted = flags.row.value_or(0);
+  if (wanted < 0 || wanted >= count)
+    throw UsageError(fmt::format("--row {}: {} has rows 0 to {}", wanted, flags.results, count - 1));
+  const Row& row = comparison->rows[static_cast<size_t>(wanted)];
+  flags.map = row.map;
+  flags.bias = row.bias;
+  flags.filter = row.filter;
+  flags.side = row.mapSide;
+  if (const std::string depth = paramText(row.params, "cube_depth"); !depth.empty()) flags.cubeDepth = depth;
+  if (row.map == "directional") flags.cascades = row.layers;
+  choice.map.name = row.map;
+  const BiasMethod& bias = biasNamed(row.bias);
+  const Filter& filter = filterNamed(row.filter);
+  for (const Param& param : row.params) {
+    const auto* number = std::get_if<double>(&param.value);
+    for (const Knob& knob : knobsOf(bias))
+      if (number != nullptr && param.name == knob.name) choice.knobs[&knob] = static_cast<float>(*number);
+    for (const Knob& knob : filter.knobs)
+      if (number != nullptr && param.name == filterParamName(knob.name))
+        choice.knobs[&knob] = static_cast<float>(*number);
+    for (const BiasChoice* one : biasChoices())
+      if (param.name == one->name) choice.choices.*one->member = one->parse(paramText(param));
+  }
+  // What else a scene has to say comes from the scene itself, where it is named, too.
+  if (flags.setup.scene.empty()) flags.setup.scene = comparison->scene.source;
+}
+
+int writeHeaders(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "gnomon" / "glsl");
+  for (const auto& [name, text] : publicHeaders()) writeTextFile(folder / "gnomon" / "glsl" / name, text);
+  say(fmt::format("wrote {}: #include \"gnomon/glsl/visibility.glsl\"\n", (folder / "gnomon" / "glsl").string()));
+  return 0;
+}
+
+int runExport(ExportFlags flags) {
+  if (!flags.headers.empty()) return writeHeaders(flags.headers);
+  ExportChoice choice;
+  for (const BiasChoice* one : biasChoices()) choice.choices.*one->member = one->parse(flags.choices.at(one->flag()));
+  if (!flags.results.empty()) {
+    for (const CLI::Option* option : flags.ofRow)
+      if (option->count() > 0)
+        throw UsageError(fmt::format("{} and --results: the row of the results has it already", option->get_name()));
+    takeRow(flags, choice);
+  } else if (flags.row) {
+    throw UsageError("--row needs --results");
+  }
+  choice.bias = &biasNamed(flags.bias);
+  choice.filter = &filterNamed(flags.filter);
+  choice.map = exportedMap(flags.map, flags.cubeDepth == "radial", flags.cascades);
+  choice.map.side = flags.side;
+  takeKnobs(choice.bias->sharesKnobsWith != nullptr ? choice.bias->sharesKnobsWith : choice.bias->name,
+            knobsOf(*choice.bias), flags, choice);
+  takeKnobs(choice.filter->name, choice.filter->knobs, flags, choice);
+  const std::vector<std::string>& languages = code::languageNames();
+  choice.language = static_cast<code::Language>(std::ranges::find(languages, flags.language) - languages.begin());
+  choice.command = commandLine();
+  if (!flags.setup.scene.empty()) choice.scene = exportedScene(openScene(flags.setup));
+  const ExportedShader exported = exportShader(choice);
+  if (!isStream(flags.out)) checkOutput(flags.out);
+  writeTextFile(flags.out, exported.text);
+  if (!isStream(flags.out)) say(fmt::format("wrote {}\n", flags.out));
+  return 0;
+}
+
+Run addExport(CLI::App* verb) {
+  auto flags = std::make_shared<ExportFlags>();
+  addSceneFileFlags(*verb, flags->setup);
+  {
+    const OptionGroup group(*verb, "What to export");
+    const auto ofRow = [&](CLI::Option* option) {
+      flags->ofRow.push_back(option);
+      return option;
+    };
+    std::vector<std::string> biases, names;
+    for (const BiasMethod& method : biasMethods()) biases.emplace_back(method.name);
+    for (const Filter& filter : filters()) names.emplace_back(filter.name);
+    offersOneOf(
+        ofRow(verb->add_option("--map", flags->map, "cube, paraboloid, spot or directional")->capture_default_str()),
+        exportedMaps());
+    offersOneOf(
+        ofRow(verb->add_option("--bias", flags->bias, "by its name in `gnomon compare --help`")->capture_default_str()),
+        biases);
+    offersOneOf(
+        ofRow(verb->add_option("--filter", flags->filter, "none, bilinear or jitter4x4")->capture_default_str()),
+        names);
+    offersOneOf(verb->add_option("--lang", flags->language, "the language")
+                    ->check(oneOf(code::languageNames()))
+                    ->capture_default_str(),
+                code::languageNames());
+    ofRow(verb->add_option("--map-size", flags->side, "texels of a slice's side")
+              ->check(CLI::Range(2, 16384))
+              ->capture_default_str());
+    offersOneOf(ofRow(verb->add_option("--cube-depth", flags->cubeDepth, "how a cube map stores depth")
+                          ->check(oneOf({"hyperbolic", "radial"}))
+                          ->capture_default_str()),
+                {"hyperbolic", "radial"});
+    ofRow(verb->add_option("--cascades", flags->cascades, "slices of a directional map")
+              ->check(CLI::Range(1, 4))
+              ->capture_default_str());
+    offersFiles(verb->add_option("--results", flags->results,
+                                 "a results.json, or its folder: map, bias, filter and parameters are those of a row"));
+    verb->add_option("--row", flags->row, "which of its rows, counted from 0; default: 0, the best");
+    offersFolders(verb->add_option("--headers", flags->headers,
+                                   "writes all maps, biases and filters as GLSL headers instead, into gnomon/glsl/ of "
+                                   "this folder (docs/glsl.md)"));
+    offersFiles(verb->add_option("-o,--out", flags->out, "the file; -: standard output")->capture_default_str());
+  }
+  const OptionGroup group(*verb, "Parameters");
+  for (const BiasChoice* choice : biasChoices()) {
+    const std::string flag = choice->flag();
+    flags->choices[flag] = choice->values.front();
+    CLI::Option* option = verb->add_option(flag, flags->choices[flag], choice->sentence)->capture_default_str();
+    flags->ofRow.push_back(option);
+    offersOneOf(option, {choice->values.begin(), choice->values.end()});
+  }
+  const auto addKnobs = [&](const char* owner, const std::vector<Knob>& knobs) {
+    for (const Knob& knob : knobs) {
+      const std::string flag = knobFlag(owner, knob);
+      const std::string unit = *unitName(knob.unit) != '\0' ? fmt::format(" [{}]", unitName(knob.unit)) : "";
+      CLI::Option* option = verb->add_option_function<float>(
+          flag, [values = &flags->knobs, flag](float value) { (*values)[flag] = value; },
+          fmt::format("{}: {}{}; default {:g}{}", owner, knob.sentence, unit, knob.defaultValue,
+                      knob.defaultOfSceneScale ? " of the scene's diagonal" : ""));
+      flags->ofRow.push_back(option);
+    }
+  };
+  for (const BiasMethod& method : biasMethods()) addKnobs(method.name, method.knobs);
+  for (const Filter& filter : filters()) addKnobs(filter.name, filter.knobs);
+  return [flags] { return runExport(*flags); };
+}
+
+}  // namespace
+
+Verb exportVerb() {
+  return {
+      .name = "export",
+      .sentence = "writes the shader code of one map, bias and filter for your renderer: GLSL, GLSL ES, HLSL or Metal",
+      .add = addExport};
+}
+
+}  // namespace gnomon
