@@ -428,7 +428,7 @@ ExportedScene exportedScene(const Scene& scene) {
   ExportedScene facts;
   facts.name = scene.name;
   facts.diagonal = computeBounds(scene).diagonal();
-  facts.endMargin = receiverMargin(scene);
+  facts.endMargin = receiverMargin(computeBounds(scene));
   facts.masked = std::ranges::any_of(scene.materials,
                                      [](const Material& material) { return material.alphaMode == AlphaMode::Mask; });
   // As createSceneBuffers() numbers them.
