@@ -20,7 +20,7 @@ class RadiancePassTest : public gpu::GpuTest {
     const SceneBuffers buffers = createSceneBuffers(device(), scene);
     const GBuffer gbuffer(device(), kSide, kSide);
     VisibilityPass visibility(device(), kSide, kSide);
-    const RadiancePass radiance(device(), kSide, kSide);
+    RadiancePass radiance(device(), kSide, kSide);
     glsl::ShadeUniforms uniforms = shadeUniforms(view, {.type = LightType::Point}, {});
     uniforms.lightColor = glm::vec3(0.0f);
     uniforms.ambient = glm::vec3(1.0f);
