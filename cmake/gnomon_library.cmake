@@ -19,6 +19,13 @@ if(GNOMON_SANITIZE)
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(gnomon_options INTERFACE -fsanitize=address,undefined)
 endif()
+# Every library counts which branches it takes, for tests/fuzz: libFuzzer's own main is linked there alone.
+if(GNOMON_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "GNOMON_FUZZ needs clang++: configure with -DCMAKE_CXX_COMPILER=clang++")
+  endif()
+  target_compile_options(gnomon_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # For find_package(Gnomon).
 function(gnomon_install name)

@@ -2,21 +2,14 @@
 //
 //   fuzz_gltf -max_total_time=300 -rss_limit_mb=2048 NEW_INPUTS CORPUS
 
-#include "base/error.h"
+#include "fuzzer.h"
 #include "scene/gltf.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <string_view>
 
 namespace {
 
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "the loaded scene breaks its contract: %s\n", what);
-  std::abort();
-}
+using gnomon::test::require;
 
 // What scene.h promises of any scene.
 void checkScene(const gnomon::Scene& scene) {
@@ -39,17 +32,7 @@ void checkScene(const gnomon::Scene& scene) {
 
 }  // namespace
 
-// What OpenImageIO keeps of its attributes until the program ends.
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libOpenImageIO\nleak:libgnomon_images\n";
-}
-
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, size_t size) {
-  try {
-    checkScene(gnomon::loadGltfFromMemory(bytes, size, "fuzz.gltf"));
-  } catch (const gnomon::WorldError& error) {
-    const std::string_view message = error.what();
-    require(message.starts_with("fuzz.gltf: ") && message.find('\n') == std::string_view::npos, "one line");
-  }
+  gnomon::test::readOrRefuse("fuzz.gltf: ", [&] { checkScene(gnomon::loadGltfFromMemory(bytes, size, "fuzz.gltf")); });
   return 0;
 }

@@ -140,7 +140,8 @@ void compileBias(const std::string& bytes, const fs::path&) {
 
 void readDensity(const std::string& bytes, const fs::path& folder) {
   writeTextFile(folder / "m.vdb", bytes);
-  const DensityGrid grid((folder / "m.vdb").string(), {});
+  const std::string named = bytes.size() % 4 == 0 ? "" : ":density";
+  const DensityGrid grid((folder / "m.vdb").string() + named, {});
   grid.at(glm::dvec3(grid.boundsW().lower));
   grid.at(0.5 * glm::dvec3(grid.boundsW().lower + grid.boundsW().upper));
 }

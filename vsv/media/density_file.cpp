@@ -210,4 +210,9 @@ DensityFile readDensityFile(const std::string& fileAndGrid) {
   return unpacked(named, runInChild(named.path, limits, [&] { return packed(named, std::move(bytes)); }));
 }
 
+DensityFile readDensityBytes(const std::string& fileAndGrid, std::string bytes) {
+  const Named named = splitName(fileAndGrid);
+  return unpacked(named, packed(named, std::move(bytes)));
+}
+
 }  // namespace gnomon

@@ -23,5 +23,7 @@ struct DensityFile {
 
 // "FILE.vdb", or "FILE.vdb:GRID" where the file has several. Throws WorldError as DensityGrid does.
 DensityFile readDensityFile(const std::string& fileAndGrid);
+// The same of bytes, and in this process, which a damaged file may then crash.
+DensityFile readDensityBytes(const std::string& fileAndGrid, std::string bytes);
 
 }  // namespace gnomon
