@@ -283,7 +283,7 @@ TEST_F(MediaPassTest, SurfacesAreAttenuatedAlongBothLegs) {
   MediaWorld world(device(), test::mediaSetup("contact"));
   world.setup.medium.sigmaA = {0.05f, 0.0f, 0.2f};
   VisibilityPass visibility(device(), world.view.width, world.view.height);
-  const RadiancePass plain(device(), world.view.width, world.view.height);
+  RadiancePass plain(device(), world.view.width, world.view.height);
   const LightModel light{.type = LightType::Point, .positionW = world.setup.light.positionW};
   glsl::ShadeUniforms shade = shadeUniforms(world.view, light, {});
   shade.lightColor = world.setup.light.intensity / glsl::kPi;

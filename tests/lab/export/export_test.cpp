@@ -222,7 +222,7 @@ class ExportOnTheGpu : public gpu::GpuTest {
       if (resource.name == "gnomonTriangleTable") bindings.emplace_back(at, facts);
     }
     gpu::Commands commands(device(), "exported visibility");
-    commands.dispatch(program, map.passes.visibility.groupCount(), {}, bindings);
+    commands.dispatch(program, shadeGroups(map.seen.view().width, map.seen.view().height), {}, bindings);
     commands.submitAndWait();
     const std::vector<float> exported = gpu::downloadAs<float>(device(), map.passes.visibility.visibility());
     Compared compared;
@@ -343,7 +343,7 @@ TEST_F(ExportOnTheGpu, HeadersGiveItOfTwoMapsInOneShader) {
           float endMargin;
         } push{map == &cube ? 0 : 1, scene.endMargin};
         gpu::Commands commands(device(), "visibility by the headers");
-        commands.dispatch(program, map->passes.visibility.groupCount(), gpu::asPush(push),
+        commands.dispatch(program, shadeGroups(map->seen.view().width, map->seen.view().height), gpu::asPush(push),
                           {{glsl::kBindPositions, scene.positions},
                            {glsl::kBindTriangles, scene.triangles},
                            {glsl::kBindInstances, scene.instances},
