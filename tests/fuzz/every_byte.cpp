@@ -2,10 +2,10 @@
 //
 //   every_byte FOLDER RESULT     RESULT: what gnomon compare -o wrote
 //
-// The kernel's limit on a file's size (RLIMIT_FSIZE) stands for the disk: the write that reaches it is cut there, and the
-// next one fails. Whatever the count, the writer must throw, and the old file be there alone and as it was. A file of more
-// than kWhole bytes is written over and over only at counts near its two ends and near each multiple of a page and of the
-// writer's buffer: between those, every count cuts the same call of write(2) in two, as its neighbours do.
+// The kernel's limit on a file's size (RLIMIT_FSIZE) stands for the disk: the write that reaches it is cut there, and
+// the next one fails. Whatever the count, the writer must throw, and the old file be there alone and as it was. A file
+// of more than kWhole bytes is tried at counts near its two ends and around each page alone: between those, every count
+// cuts the same call of write(2) in two, as its neighbours do.
 
 #include "base/error.h"
 #include "base/file.h"

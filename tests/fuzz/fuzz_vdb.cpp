@@ -12,8 +12,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, size_t size) {
   using gnomon::test::require;
   gnomon::test::readOrRefuse("fuzz.vdb: ", [&] {
-    const gnomon::DensityFile file =
-        gnomon::readDensityBytes(size % 4 == 0 ? "fuzz.vdb" : "fuzz.vdb:density", std::string(reinterpret_cast<const char*>(bytes), size));
+    const char* named = size % 4 == 0 ? "fuzz.vdb" : "fuzz.vdb:density";
+    const std::string text(reinterpret_cast<const char*>(bytes), size);
+    const gnomon::DensityFile file = gnomon::readDensityBytes(named, text);
     require(file.facts.activeVoxels > 0, "it has voxels");
     require(!file.nanoVdb.empty(), "it has a grid");
     for (int axis = 0; axis < 3; ++axis)

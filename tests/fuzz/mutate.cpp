@@ -3,7 +3,8 @@
 //   mutate KIND COUNT FOLDER SEED...     KIND: gltf, image, results, bias, shader, density
 //
 // Number n is always the same: `mutate --one KIND n FOLDER SEED...` repeats it. Each must give what the reader promises
-// or a WorldError of one line, within 10 s of processor time; the input that does not is left in FOLDER, and its number on stderr.
+// or a WorldError of one line, within 10 s of processor time; the input that does not is left in FOLDER, and its number
+// on stderr.
 
 #include "base/error.h"
 #include "base/file.h"
