@@ -103,7 +103,8 @@ TEST_F(CliTest, ThePagesCommandsMakeItsRowsAgainWhateverTheOptions) {
       "--size 48x40 --map-size 64 --cull none --epsilon-at stored --repeats 1 -o @/out ";
   const std::string flags[] = {
       "--maps directional,cube,paraboloid,vsv --biases constant,adaptive --constant-offset 0.03 --filters "
-      "none,bilinear --fit tight --snap off --cascades 2 --cube-depth radial --cube-passes six --paraboloid-axis "
+      "none,bilinear --fit tight --snap off --cascades 2 --cube-depth radial --depth-range 0.05,30 --cube-passes six "
+      "--paraboloid-axis "
       "0.3,-1,0.2 --paraboloid-raster tessellated --vsv-size 64x64x128 --vsv-source resample --vsv-fit full",
       "--maps spot,directional --warp lispsm --biases none,adaptive-ehm --adaptive-k 0.0003 --bias-file '@/my "
       "biases/mine.glsl'"};

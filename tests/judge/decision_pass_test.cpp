@@ -118,7 +118,7 @@ TEST_F(DecisionPassTest, ExpectedMethodsAreJudgedAsOthersAre) {
   std::vector<Method> methods;
   for (const BiasMethod& bias : biasMethods()) methods.push_back(atDefaults(bias, map.seen));
   map.lit.expect(methods);
-  std::ranges::rotate(methods, methods.begin() + 4);
+  std::rotate(methods.begin(), methods.begin() + 4, methods.end());
   for (const Method& method : methods) {
     const LabelledResult expected = map.lit.judge(method), own = alone.lit.judge(method);
     EXPECT_EQ(expected.visibility, own.visibility) << method.bias->name;
