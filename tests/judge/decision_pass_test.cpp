@@ -8,6 +8,8 @@
 #include "planar/planar_map.h"
 #include "shadow/user_bias.h"
 
+#include <algorithm>
+
 namespace gnomon {
 namespace {
 
