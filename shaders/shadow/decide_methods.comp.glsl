@@ -1,7 +1,7 @@
 // What several biases of shared/bias.glsl say of the unfiltered map, in one dispatch: they share the pixel's receiver,
 // its texel, the texel's ray and what it holds. Those that move the receiver first share the receiver that they move.
-// All read the same channels. Each method is a specialization constant, as the one of shade_visibility.comp.glsl is, and
-// says what it says there, bit for bit.
+// All read the same channels. Each method is a specialization constant, as the one of shade_visibility.comp.glsl is,
+// and says what it says there, bit for bit.
 //
 // Of each pixel a byte of PixelDiagnosis::flags a method, four to a word, then the texel that they share, then one of
 // each method that moves the receiver: planes of one word a pixel (src/shadow/decision_pass.h).

@@ -17,9 +17,9 @@ Verb completionVerb();
 Verb manVerb();
 
 const std::vector<Verb>& verbs() {
-  static const std::vector<Verb> all = {compareVerb(), renderVerb(), exportVerb(), reportVerb(), fogVerb(),
-                                        vsvVerb(),     sceneVerb(),      benchVerb(),  reproduceVerb(),
-                                        infoVerb(),    completionVerb(), manVerb()};
+  static const std::vector<Verb> all = {compareVerb(),   renderVerb(), exportVerb(),     reportVerb(),
+                                        fogVerb(),       vsvVerb(),    sceneVerb(),      benchVerb(),
+                                        reproduceVerb(), infoVerb(),   completionVerb(), manVerb()};
   return all;
 }
 

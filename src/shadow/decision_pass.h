@@ -1,7 +1,7 @@
 #pragma once
-// The decision pass: what several biases say of one unfiltered map in one dispatch. They share a pixel's receiver, texel
-// and ray, and most of a look-up's time is that. Its bits are those of VisibilityPass, which decides one at a time and
-// is what a bias's time is taken of.
+// The decision pass: what several biases say of one unfiltered map in one dispatch. They share a pixel's receiver,
+// texel and ray, and most of a look-up's time is that. Its bits are those of VisibilityPass, which decides one at a
+// time and is what a bias's time is taken of.
 
 #include "shadow/visibility_pass.h"
 

@@ -113,7 +113,8 @@ TEST_F(DecisionPassTest, OneMethodAtSeveralValues) {
   }
 }
 
-// What is expected is decided together, whatever the order in which it is asked for; what knows surfaces is decided alone.
+// What is expected is decided together, whatever the order in which it is asked for; what knows surfaces is decided
+// alone.
 TEST_F(DecisionPassTest, ExpectedMethodsAreJudgedAsOthersAre) {
   LitMap map(device(), "atrium", cubeParameterization(), kPictureSide, {.side = kMapSide});
   LitMap alone(device(), "atrium", cubeParameterization(), kPictureSide, {.side = kMapSide});

@@ -83,7 +83,8 @@ TEST(Recommendation, NamesWhatTheExactShadowCannotTellApart) {
   Row edgy = rowOf("dual", 5, 25, 0.05);
   near.frameMs = 4.0;
   Comparison comparison = comparisonOf({best, near, far, edgy});
-  comparison.truths = {{.map = "cube", .light = {.name = "lamp"}, .scored = 10000, .lit = 5000, .marginFlipsDouble = 4}};
+  comparison.truths = {
+      {.map = "cube", .light = {.name = "lamp"}, .scored = 10000, .lit = 5000, .marginFlipsDouble = 4}};
   EXPECT_EQ(linesOf(recommendation(comparison)).back(),
             "  as good, within the 4 pixels that the exact shadow cannot tell: slope on a cube map (4 ms)");
   comparison.truths[0].marginFlipsDouble = 3;

@@ -168,8 +168,7 @@ Elsewhere elsewhereOf(const Session& session, ShadowPasses& passes, const Compar
     throwIfInterrupted();
     const LightOnMap lit(session, passes, map, light, mapSetupOf(options, map));
     if (lit.receivers().scored == 0) continue;
-    elsewhere =
-        Robustness(lit, options).judge(methodFor(session, options, bias), filterFor(options, filter), counts);
+    elsewhere = Robustness(lit, options).judge(methodFor(session, options, bias), filterFor(options, filter), counts);
   }
   return elsewhere;
 }
