@@ -76,6 +76,12 @@ LightOnMap::LightOnMap(const SceneView& view, ShadowPasses& passes, const Parame
 LightOnMap::LightOnMap(const SceneView& view, ShadowPasses& passes, const Parameterization& map, MapSetup setup)
     : LightOnMap(view, passes, map, requireLightFor(view.scene(), map), std::move(setup)) {}
 
+LightOnMap::LightOnMap(const SceneView& view, ShadowPasses& passes, const Parameterization& map, MapSetup setup,
+                       std::shared_ptr<const GroundTruth> truth)
+    : LightOnMap(view, passes, map, truth->source, truth->light, std::move(setup)) {
+  truth_ = std::move(truth);
+}
+
 LightOnMap::LightOnMap(const LightOnMap& other, MapSetup setup)
     : LightOnMap(other.view_, other.passes_, other.map_, other.source_, other.light_, std::move(setup)) {
   other.groundTruth();
@@ -85,6 +91,11 @@ LightOnMap::LightOnMap(const LightOnMap& other, MapSetup setup)
 const GroundTruth& LightOnMap::groundTruth() const {
   if (!truth_) truth_ = std::make_shared<const GroundTruth>(traceGroundTruth(view_, source_, light_));
   return *truth_;
+}
+
+std::shared_ptr<const GroundTruth> LightOnMap::sharedTruth() const {
+  groundTruth();
+  return truth_;
 }
 
 const LightOnMap::Fit& LightOnMap::fit() const {

@@ -77,6 +77,9 @@ class LightOnMap {
   // The light taken as it was for another view.
   LightOnMap(const SceneView& view, ShadowPasses& passes, const Parameterization& map, const Light& source,
              const LightModel& light, MapSetup setup);
+  // The same, whose ground truth another map of that light in that view has found (sharedTruth).
+  LightOnMap(const SceneView& view, ShadowPasses& passes, const Parameterization& map, MapSetup setup,
+             std::shared_ptr<const GroundTruth> truth);
   // The same light, ground truth and parameterization, mapped otherwise.
   LightOnMap(const LightOnMap& other, MapSetup setup);
 
@@ -88,6 +91,7 @@ class LightOnMap {
   const LightModel& light() const { return light_; }  // as the map takes it
 
   const GroundTruth& groundTruth() const;
+  std::shared_ptr<const GroundTruth> sharedTruth() const;
   const Receivers& receivers() const { return groundTruth().receivers; }
   const Truth& truth() const { return groundTruth().truth; }
 
