@@ -14,10 +14,28 @@ void* operator new(size_t size) {
   if (void* made = std::malloc(size)) return made;
   throw std::bad_alloc();
 }
+// Whoever asks by this form frees by those below.
+void* operator new(size_t size, const std::nothrow_t&) noexcept {
+  ++calls.heap;
+  return std::malloc(size);
+}
 void operator delete(void* at) noexcept {
   std::free(at);
 }
 void operator delete(void* at, size_t) noexcept {
+  std::free(at);
+}
+
+void* operator new[](size_t size) {
+  return operator new(size);
+}
+void* operator new[](size_t size, const std::nothrow_t& none) noexcept {
+  return operator new(size, none);
+}
+void operator delete[](void* at) noexcept {
+  std::free(at);
+}
+void operator delete[](void* at, size_t) noexcept {
   std::free(at);
 }
 
