@@ -8,6 +8,7 @@ Verb renderVerb();
 Verb reportVerb();
 Verb fogVerb();
 Verb vsvVerb();
+Verb viewVerb();
 Verb sceneVerb();
 Verb benchVerb();
 Verb reproduceVerb();
@@ -16,9 +17,9 @@ Verb completionVerb();
 Verb manVerb();
 
 const std::vector<Verb>& verbs() {
-  static const std::vector<Verb> all = {compareVerb(), renderVerb(),     reportVerb(), fogVerb(),
-                                        vsvVerb(),     sceneVerb(),      benchVerb(),  reproduceVerb(),
-                                        infoVerb(),    completionVerb(), manVerb()};
+  static const std::vector<Verb> all = {compareVerb(),   renderVerb(), viewVerb(),       reportVerb(),
+                                        fogVerb(),       vsvVerb(),    sceneVerb(),      benchVerb(),
+                                        reproduceVerb(), infoVerb(),   completionVerb(), manVerb()};
   return all;
 }
 

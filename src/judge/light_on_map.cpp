@@ -82,6 +82,16 @@ LightOnMap::LightOnMap(const LightOnMap& other, MapSetup setup)
   truth_ = other.truth_;
 }
 
+void LightOnMap::shareTruth(const LightOnMap& other) {
+  const LightModel& a = light_;
+  const LightModel& b = other.light_;
+  const bool alike = &view_ == &other.view_ && a.type == b.type && a.positionW == b.positionW &&
+                     a.directionW == b.directionW && a.outerConeRad == b.outerConeRad;
+  if (!alike || truth_) return;
+  other.groundTruth();
+  truth_ = other.truth_;
+}
+
 const GroundTruth& LightOnMap::groundTruth() const {
   if (!truth_) truth_ = std::make_shared<const GroundTruth>(traceGroundTruth(view_, source_, light_));
   return *truth_;

@@ -80,6 +80,10 @@ class LightOnMap {
   // The same light, ground truth and parameterization, mapped otherwise.
   LightOnMap(const LightOnMap& other, MapSetup setup);
 
+  // The other's ground truth, where it is of the same view and of a light that is taken alike, so that it is traced
+  // once.
+  void shareTruth(const LightOnMap& other);
+
   const SceneView& view() const { return view_; }
   ShadowPasses& passes() const { return passes_; }
   const Parameterization& parameterization() const { return map_; }
@@ -88,6 +92,7 @@ class LightOnMap {
   const LightModel& light() const { return light_; }  // as the map takes it
 
   const GroundTruth& groundTruth() const;
+  std::shared_ptr<const GroundTruth> keptTruth() const { return groundTruth(), truth_; }
   const Receivers& receivers() const { return groundTruth().receivers; }
   const Truth& truth() const { return groundTruth().truth; }
 

@@ -43,7 +43,10 @@ SceneView::SceneView(std::shared_ptr<const gpu::Device> device, std::shared_ptr<
     : SceneView(std::move(device), traced, firstCamera(traced->scene), width, height) {}
 
 SceneView::SceneView(const SceneView& other, const Camera& camera)
-    : SceneView(other.device_, other.traced_, other.buffers_, camera, other.view_.width, other.view_.height) {}
+    : SceneView(other, camera, other.view_.width, other.view_.height) {}
+
+SceneView::SceneView(const SceneView& other, const Camera& camera, int width, int height)
+    : SceneView(other.device_, other.traced_, other.buffers_, camera, width, height) {}
 
 float SceneView::sceneScale() const {
   return computeBounds(scene()).diagonal();

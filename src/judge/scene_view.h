@@ -30,6 +30,8 @@ class SceneView {
             int height);
   // The same scene on the same device, seen by another camera.
   SceneView(const SceneView& other, const Camera& camera);
+  // And in another size, pixels.
+  SceneView(const SceneView& other, const Camera& camera, int width, int height);
 
   const Scene& scene() const { return traced_->scene; }
   const Tracer& tracer() const { return traced_->tracer; }

@@ -20,6 +20,7 @@ struct Subject {
   LightOnMap& lit;
   const Method& method;
   ChosenFilter filter;
+  const LabelledResult* judged;  // null: not yet
 
   const Receivers& receivers() const { return lit.receivers(); }
   std::vector<float> visibility() const { return lit.visibility(method, filter); }
@@ -61,7 +62,8 @@ RenderedPicture difference(const Subject& subject) {
 
 RenderedPicture labels(const Subject& subject) {
   LightOnMap& lit = subject.lit;
-  const LabelledResult judged = lit.judge(subject.method);
+  const LabelledResult own = subject.judged == nullptr ? lit.judge(subject.method) : LabelledResult{};
+  const LabelledResult& judged = subject.judged == nullptr ? own : *subject.judged;
   const std::string title = fmt::format("{} {}, {} x {} texels", lit.parameterization().name(),
                                         subject.method.bias->name, lit.fitted().map.width, lit.fitted().map.height);
   std::vector<float> numbers;
@@ -156,17 +158,22 @@ std::vector<std::string> picturesToShow() {
   return names;
 }
 
-RenderedPicture renderPicture(const Session& session, const CompareOptions& options, const std::string& show) {
+RenderedPicture drawPicture(LightOnMap& lit, const Method& method, const ChosenFilter& filter, const std::string& show,
+                            const LabelledResult* judged) {
   const auto* const shown = std::ranges::find_if(kShown, [&](const ShowChoice& s) { return s.name == show; });
   if (shown == kShown.end()) throw UsageError(fmt::format("--show {}: no such picture", show));
+  RenderedPicture picture = shown->draw({lit, method, filter, judged});
+  picture.note = lit.fitted().note;
+  if (picture.channels.isColour) picture.exposure = lit.exposureFactor();
+  return picture;
+}
+
+RenderedPicture renderPicture(const Session& session, const CompareOptions& options, const std::string& show) {
   const Parameterization& map = *options.maps.front();
   ShadowPasses passes(session);
   LightOnMap lit = openLight(session, passes, map, mapSetupOf(options, map));
   const Method method = methodFor(session, options, *options.biases.front());
-  RenderedPicture picture = shown->draw({lit, method, filterFor(options, *options.filters.front())});
-  picture.note = lit.fitted().note;
-  if (picture.channels.isColour) picture.exposure = lit.exposureFactor();
-  return picture;
+  return drawPicture(lit, method, filterFor(options, *options.filters.front()), show);
 }
 
 }  // namespace gnomon
