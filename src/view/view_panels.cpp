@@ -232,12 +232,11 @@ void ViewWindow::drawStatus() {
 }
 
 void ViewWindow::drawMessages() {
-  if (message_.empty() || ViewClock::now() - messageTime_ > std::chrono::seconds(8)) {
-    // What is wrong stays as long as it is.
-    if (pictureProblem_.empty()) return message_.clear();
-    message_ = pictureProblem_;
-    messageIsProblem_ = true;
-  }
+  // What is wrong stays as long as it is.
+  if (ViewClock::now() - messageTime_ > kMessage) message_.clear();
+  const std::string& text = message_.empty() ? pictureProblem_ : message_;
+  const bool isProblem = message_.empty() || messageIsProblem_;
+  if (text.empty()) return;
   ImGui::SetNextWindowPos(ImVec2(static_cast<float>(canvas_.x) + 8.0f, static_cast<float>(canvas_.y) + 8.0f));
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f),
@@ -246,10 +245,10 @@ void ViewWindow::drawMessages() {
       "message", nullptr,
       kFixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoInputs);
   ImGui::PushTextWrapPos(std::max(static_cast<float>(canvas_.width) - 32.0f, 48.0f));
-  if (messageIsProblem_)
-    ImGui::TextColored(kProblem, "%s", message_.c_str());
+  if (isProblem)
+    ImGui::TextColored(kProblem, "%s", text.c_str());
   else
-    ImGui::TextUnformatted(message_.c_str());
+    ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::End();
 }

@@ -389,7 +389,7 @@ void ScriptPlayer::play(const ScriptLine& line) {
   }
   if (verb == "expect-problem") {
     const std::string wanted = line.words.empty() ? "" : line.words[0];
-    const std::string is = w.messageIsProblem_ ? w.message_ : w.pictureProblem_;
+    const std::string is = !w.message_.empty() && w.messageIsProblem_ ? w.message_ : w.pictureProblem_;
     if (wanted.empty() ? !is.empty() : is.find(wanted) == std::string::npos)
       fail(line, fmt::format("the window's problem is '{}', not '{}'", is, wanted));
     w.message_.clear();

@@ -29,8 +29,6 @@ namespace {
 
 // Without a change for so long, all is at rest.
 constexpr std::chrono::milliseconds kRest{150};
-// How long a message stands.
-constexpr std::chrono::seconds kMessage{8};
 // A device that is lost again so soon is not made anew.
 constexpr std::chrono::seconds kOftenLost{5};
 // A window looks around so often, seconds: when nothing happens, while something moves, while a script waits.

@@ -31,6 +31,8 @@ struct StageHistory {
   double median() const;
 };
 inline constexpr size_t kMostTimes = 120;
+// How long a message stands.
+inline constexpr std::chrono::seconds kMessage{8};
 
 // What was measured during one stretch of a script.
 struct Measurement {
