@@ -205,7 +205,8 @@ std::string countsLine(const ViewCounts& counts) {
   const auto told = [&](size_t pixels) {
     const double share =
         counts.scored == 0 ? 0.0 : 100.0 * static_cast<double>(pixels) / static_cast<double>(counts.scored);
-    return counts.share < 1.0 ? fmt::format("about {:.3g}%", share) : fmt::format("{} ({:.3g}%)", pixels, share);
+    const std::string percent = share > 0.0 && share < 0.01 ? "<0.01%" : fmt::format("{:.2f}%", share);
+    return counts.share < 1.0 ? "about " + percent : fmt::format("{} ({})", pixels, percent);
   };
   return fmt::format("acne {}, leak {}, edges {}, uncovered {}; of {} scored{}", told(count(Label::Acne)),
                      told(count(Label::Leak)), told(count(Label::EdgeShadow) + count(Label::EdgeLight)),

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/parse.h"
+#include "lab/picture/pictures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,8 @@ namespace gnomon {
 namespace {
 
 // Okabe and Ito.
-constexpr ImU32 kOrange = IM_COL32(230, 159, 0, 255), kSky = IM_COL32(86, 180, 233, 255),
-                kGreen = IM_COL32(0, 158, 115, 255), kYellow = IM_COL32(240, 228, 66, 255),
-                kBlue = IM_COL32(0, 114, 178, 255), kVermillion = IM_COL32(213, 94, 0, 255),
+constexpr ImU32 kSky = IM_COL32(86, 180, 233, 255), kGreen = IM_COL32(0, 158, 115, 255),
+                kYellow = IM_COL32(240, 228, 66, 255), kVermillion = IM_COL32(213, 94, 0, 255),
                 kWhite = IM_COL32(255, 255, 255, 255), kBlack = IM_COL32(0, 0, 0, 255);
 constexpr ImU32 kAxes[3] = {kVermillion, kGreen, kSky};
 
@@ -176,36 +176,40 @@ void ViewWindow::drawSplitEdge() {
   boxed(label(1), 0.0f, x + 8.0f);
 }
 
-// The colours of labels and of differences, as the pictures' own legend has them.
+// What the colours of labels and of differences mean.
 void ViewWindow::drawLegend() {
   if (state_.fog.on) return;
   const auto shows = [&](const char* what) {
     return state_.sides[0].show == what || (state_.split && state_.sides[1].show == what);
   };
   struct Entry {
-    ImU32 color;
-    const char* text;
+    glm::u8vec3 color;
+    std::string text;
   };
   std::vector<Entry> entries;
-  if (shows("labels"))
-    entries = {{kOrange, "acne"},
-               {kBlue, "leak"},
-               {kYellow, "edge, shadow"},
-               {kSky, "edge, light"},
-               {kGreen, "unseen occluder"}};
-  else if (shows("difference"))
-    entries = {{kBlue, "too light"}, {kVermillion, "too dark"}};
-  if (entries.empty()) return;
+  if (shows("labels")) {
+    for (const Label label : {Label::Acne, Label::Leak, Label::EdgeShadow, Label::EdgeLight, Label::Uncovered})
+      entries.push_back({labelColor(label), labelName(label)});
+    const auto names = [](const SidePicture& side) { return side.judged && side.judged->labels.unseen; };
+    if (std::ranges::any_of(picture_->sides, names)) entries.push_back({kUnseenColor, "unseen occluder"});
+  } else if (shows("difference")) {
+    entries = {{labelColor(Label::Leak), "too light"}, {labelColor(Label::Acne), "too dark"}};
+  }
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  float x = static_cast<float>(place_.rect.x) + 8.0f;
-  const float y = static_cast<float>(place_.rect.y) + 8.0f, size = ImGui::GetFontSize();
-  float width = 8.0f;
-  for (const Entry& entry : entries) width += ImGui::CalcTextSize(entry.text).x + size + 14.0f;
-  list.AddRectFilled(ImVec2(x - 4.0f, y - 4.0f), ImVec2(x + width - 4.0f, y + size + 4.0f), IM_COL32(0, 0, 0, 170));
+  const float left = static_cast<float>(place_.rect.x) + 8.0f, size = ImGui::GetFontSize();
+  const auto right = static_cast<float>(place_.rect.x + place_.rect.width);
+  float x = left, y = static_cast<float>(place_.rect.y) + 8.0f;
   for (const Entry& entry : entries) {
-    list.AddRectFilled(ImVec2(x, y), ImVec2(x + size, y + size), entry.color);
-    list.AddText(ImVec2(x + size + 4.0f, y), kWhite, entry.text);
-    x += ImGui::CalcTextSize(entry.text).x + size + 14.0f;
+    const float width = ImGui::CalcTextSize(entry.text.c_str()).x + size + 14.0f;
+    if (x > left && x + width > right) {
+      x = left;
+      y += size + 8.0f;
+    }
+    list.AddRectFilled(ImVec2(x - 4.0f, y - 4.0f), ImVec2(x + width - 4.0f, y + size + 4.0f), IM_COL32(0, 0, 0, 170));
+    list.AddRectFilled(ImVec2(x, y), ImVec2(x + size, y + size),
+                       IM_COL32(entry.color[0], entry.color[1], entry.color[2], 255));
+    list.AddText(ImVec2(x + size + 4.0f, y), kWhite, entry.text.c_str());
+    x += width;
   }
 }
 
@@ -271,26 +275,35 @@ void ViewWindow::drawLoupe() {
   const auto corner = [&](int dx, int dy) {
     return ImVec2(origin.x + cell * static_cast<float>(dx + half), origin.y + cell * static_cast<float>(dy + half));
   };
-  for (int dy = -half; dy <= half; ++dy) {
-    for (int dx = -half; dx <= half; ++dx) {
-      const int x = center.x + dx, y = center.y + dy;
-      if (x < 0 || y < 0 || x >= picture_->width || y >= picture_->height) continue;
-      const uint8_t* rgb = drawn.image.at(x, y);
-      const ImVec2 from = corner(dx, dy);
-      list.AddRectFilled(from, ImVec2(from.x + cell, from.y + cell), IM_COL32(rgb[0], rgb[1], rgb[2], 255));
-      // Where the next pixel is decided by another texel.
-      const auto own = texelOf(*picture_, side, {x, y});
-      if (!own) continue;
-      const auto differs = [&](int otherX, int otherY) {
-        const auto other = texelOf(*picture_, side, {otherX, otherY});
-        return other && (other->slice != own->slice || other->texel != own->texel);
-      };
-      if (dx < half && differs(x + 1, y))
-        list.AddLine(ImVec2(from.x + cell, from.y), ImVec2(from.x + cell, from.y + cell), IM_COL32(255, 255, 255, 160));
-      if (dy < half && differs(x, y + 1))
-        list.AddLine(ImVec2(from.x, from.y + cell), ImVec2(from.x + cell, from.y + cell), IM_COL32(255, 255, 255, 160));
+  const auto forEachPixel = [&](const auto& draw) {
+    for (int dy = -half; dy <= half; ++dy) {
+      for (int dx = -half; dx <= half; ++dx) {
+        const int x = center.x + dx, y = center.y + dy;
+        if (x >= 0 && y >= 0 && x < picture_->width && y < picture_->height) draw(dx, dy, x, y);
+      }
     }
-  }
+  };
+  forEachPixel([&](int dx, int dy, int x, int y) {
+    const uint8_t* rgb = drawn.image.at(x, y);
+    const ImVec2 from = corner(dx, dy);
+    list.AddRectFilled(from, ImVec2(from.x + cell, from.y + cell), IM_COL32(rgb[0], rgb[1], rgb[2], 255));
+  });
+  // Where the next pixel is decided by another texel; white and black, so that a line is seen on anything.
+  forEachPixel([&](int dx, int dy, int x, int y) {
+    const auto own = texelOf(*picture_, side, {x, y});
+    if (!own) return;
+    const auto differs = [&](int otherX, int otherY) {
+      const auto other = texelOf(*picture_, side, {otherX, otherY});
+      return other && (other->slice != own->slice || other->texel != own->texel);
+    };
+    const auto line = [&](const ImVec2& from, const ImVec2& to, float acrossX, float acrossY) {
+      list.AddLine(from, to, kWhite);
+      list.AddLine(ImVec2(from.x + acrossX, from.y + acrossY), ImVec2(to.x + acrossX, to.y + acrossY), kBlack);
+    };
+    const ImVec2 from = corner(dx, dy), to = corner(dx + 1, dy + 1);
+    if (dx < half && differs(x + 1, y)) line(ImVec2(to.x, from.y), to, 1.0f, 0.0f);
+    if (dy < half && differs(x, y + 1)) line(ImVec2(from.x, to.y), to, 0.0f, 1.0f);
+  });
   const ImVec2 middle = corner(0, 0);
   list.AddRect(ImVec2(middle.x - 1.0f, middle.y - 1.0f), ImVec2(middle.x + cell + 1.0f, middle.y + cell + 1.0f), kBlack,
                0.0f, 0, 4.0f);

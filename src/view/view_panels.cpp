@@ -225,8 +225,19 @@ void ViewWindow::drawStatus() {
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("copies this command line, which makes this very picture (C); Shift+C: of `gnomon compare`");
   ImGui::SameLine();
+  // Less is drawn while something moves.
+  if (picture_ && (picture_->width < picture_->fullWidth || picture_->mapHalvings > 0)) {
+    ImGui::TextColored(kQuiet, "%d x %d, maps 1/%d:", picture_->width, picture_->height, 1 << picture_->mapHalvings);
+    ImGui::SameLine();
+  }
   ImGui::TextUnformatted(command.c_str());
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", command.c_str());
+  if (ImGui::IsItemHovered()) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(0.8f * io.DisplaySize.x);
+    ImGui::TextUnformatted(command.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
   ImGui::End();
   ImGui::PopStyleVar();
 }
@@ -258,14 +269,20 @@ void ViewWindow::drawKeys() {
   const ImGuiIO& io = ImGui::GetIO();
   ImGui::SetNextWindowPos(ImVec2(0.5f * io.DisplaySize.x, 0.5f * io.DisplaySize.y), ImGuiCond_Always,
                           ImVec2(0.5f, 0.5f));
+  const float width = std::min(60.0f * ImGui::GetFontSize(), 0.96f * io.DisplaySize.x);
+  const float most = 0.96f * io.DisplaySize.y;
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, most));
+  ImGui::SetNextWindowFocus();
   ImGui::Begin("keys", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
   if (ImGui::BeginTable("keys", 2)) {
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+    ImGui::TableSetupColumn("does", ImGuiTableColumnFlags_WidthStretch, 2.6f);
     for (const KeyHelp& key : kKeyHelp) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(key.keys);
+      ImGui::TextWrapped("%s", key.keys);
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(key.does);
+      ImGui::TextWrapped("%s", key.does);
     }
     ImGui::EndTable();
   }
@@ -277,8 +294,12 @@ void ViewWindow::drawPanels() {
   if (showPanel_) {
     ImGui::SetNextWindowPos(ImVec2(0.0f, 0.0f));
     ImGui::SetNextWindowSize(ImVec2(static_cast<float>(panelWidth_), static_cast<float>(canvas_.height)));
-    ImGui::Begin("controls", nullptr, kFixed);
+    ImGui::Begin("controls", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    // What is counted stays in sight, whatever the controls above are scrolled to.
+    ImGui::BeginChild("declared", ImVec2(0.0f, -std::min(countsHeight_, 0.5f * static_cast<float>(canvas_.height))));
     drawControls();
+    ImGui::EndChild();
+    const float top = ImGui::GetCursorPosY();
     drawCounts();
     if (picture_ && !picture_->note.empty()) {
       ImGui::PushTextWrapPos(0.0f);
@@ -286,6 +307,7 @@ void ViewWindow::drawPanels() {
       ImGui::PopTextWrapPos();
     }
     ImGui::TextColored(kQuiet, "? lists the keys");
+    countsHeight_ = ImGui::GetCursorPosY() - top;
     ImGui::End();
   }
   drawTimes();

@@ -70,6 +70,13 @@ bool ScriptPlayer::step() {
       // A person's window goes on without it.
       return window_.options_.script.empty();
     }
+    // Pixels of a picture are somewhere only when there is one.
+    const bool isOnPicture = lines_[at_].verb == "move" || lines_[at_].verb == "drag";
+    window_.scriptWaits_ = isOnPicture && window_.place_.rect.width == 0 && window_.pictureProblem_.empty();
+    if (window_.scriptWaits_) {
+      checkPatience();
+      return true;
+    }
     const ScriptLine& line = lines_[at_++];
     try {
       play(line);

@@ -196,6 +196,7 @@ class ViewWindow {
   bool keepFrame_ = false;
   float scale_ = 1.0f;
   double panelWidth_ = 0.0;
+  float countsHeight_ = 60.0f;  // of what stands below the controls, pixels
 
   // Messages.
   std::string message_;
