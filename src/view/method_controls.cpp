@@ -245,7 +245,10 @@ void addBiasControls(std::vector<Control>& controls, size_t side, const std::str
   filter.get = [side](const ViewState& state) { return std::string(optionsOf(state, side).filters.front()->name); };
   filter.set = [side, filter](ViewState& state, const std::string& text) {
     checkChoice(filter.name, text, filter.choices);
-    optionsOf(state, side).filters = parseFilters(text);
+    const std::vector<const Filter*> chosen = parseFilters(text);
+    if (!mapOf(state, side).supportsFilters() && chosen.front() != &filters().front())
+      throw UsageError(fmt::format("filter {}: a {} map stores no depths for it", text, mapOf(state, side).name()));
+    optionsOf(state, side).filters = chosen;
   };
   filter.applies = [side](const ViewState& state) { return !state.fog.on && mapOf(state, side).supportsFilters(); };
   controls.push_back(filter);

@@ -246,7 +246,7 @@ bool PictureStudio::refine(const PictureRequest& request, ViewPicture& picture,
     const bool isUnfolded = state.unfolded && side == 0;
     if (!state.loupe && !isUnfolded) continue;
     drawn.diagnosis = lit.diagnose(method);
-    drawn.depths = depthInMetres(*device_, lit.occluders(drawn.bias->channels));
+    drawn.depths = depthInMetres(*device_, lit.occluders(drawn.bias->channels | glsl::kChannelDepth));
     if (overtaken()) return false;
     const DepthImages& depths = *drawn.depths;
     const ImageF& layer = state.secondLayer && depths.second ? *depths.second : depths.first;

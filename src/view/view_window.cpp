@@ -168,7 +168,8 @@ void ViewWindow::takePicture() {
   const std::shared_ptr<const ViewPicture> newest = worker_->newest();
   if (!newest || newest == picture_) return;
   picture_ = newest;
-  framesPending_ = std::max(framesPending_, 2);
+  // This frame, and at rest one more, in which the interface has settled.
+  framesPending_ = std::max(framesPending_, goesOn_ ? 1 : 2);
   pictureProblem_ = newest->problem;
   if (!newest->problem.empty()) {
     say(newest->problem, true);

@@ -9,6 +9,7 @@
 #include "vsv/volume_parameterization.h"
 
 #include <chrono>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
@@ -126,6 +127,25 @@ TEST_F(PictureWorkerTest, PixelsHaveReasons) {
   ASSERT_TRUE(back);
   EXPECT_EQ(back->slice, place->slice);
   EXPECT_EQ(back->texel, place->texel);
+}
+
+// Whatever of a map a bias reads, the loupe and the unfolded map have something to show.
+TEST_F(PictureWorkerTest, WhatAnyBiasReadsIsExplained) {
+  ViewState state = stateOf("lshape");
+  state.loupe = true;
+  state.unfolded = true;
+  std::set<ChannelSet> seen;
+  uint64_t number = 0;
+  for (const BiasMethod& bias : biasMethods()) {
+    if (!seen.insert(bias.channels).second) continue;
+    state.sides[0].options.biases = {&bias};
+    const auto picture = refined(state, ++number);
+    EXPECT_EQ(picture->problem, "") << bias.name;
+    ASSERT_TRUE(picture->sides[0].depths) << bias.name;
+    EXPECT_FALSE(picture->sides[0].unfolded.values.empty()) << bias.name;
+    EXPECT_GT(pixelFacts(*picture, 0, {kWidth / 2, kHeight / 2}).size(), 2u) << bias.name;
+  }
+  EXPECT_GT(seen.size(), 3u);
 }
 
 // What cannot be drawn is told, and the last picture stays.

@@ -136,6 +136,18 @@ TEST(ViewControls, MistakesLeaveTheStateAsItWas) {
   }
 }
 
+// What means nothing on a volume is refused there, in whatever order it is set.
+TEST(ViewControls, AVolumeTakesNoFilter) {
+  ViewState state = stateOf("atrium");
+  const std::vector<Control> controls = viewControls(opened(state));
+  set(state, controls, "a.filter", "bilinear");
+  set(state, controls, "a.map", "vsv");
+  EXPECT_EQ(findControl(controls, "a.filter").get(state), "none");
+  EXPECT_THROW(set(state, controls, "a.filter", "bilinear"), UsageError);
+  set(state, controls, "a.filter", "none");
+  EXPECT_THROW(set(state, controls, "a.bias", "witness"), UsageError);
+}
+
 TEST(ViewControls, CommandsNameWhatDiffers) {
   ViewState state = stateOf("atrium");
   const auto traced = opened(state);
