@@ -341,14 +341,16 @@ LightOnMap& PictureStudio::lightFor(const Sheet& sheet) {
   if (lit->receivers().scored == 0)
     throw WorldError(fmt::format("light '{}': the camera sees no surface that faces the light; move one of them",
                                  picture.light.name));
-  if (kept.lit && &kept.lit->parameterization() == &map) {
+  const bool isShared = kept.lit && kept.lit == other.lit;
+  if (isShared && side == 0) other = {};
+  // What A has in this picture stays A's.
+  if (kept.lit && !(isShared && side == 1) && &kept.lit->parameterization() == &map) {
     // A map around the light is the same for every camera.
     const bool isSame = detail.wholeScene && !detail.anew && kept.key == key && kept.lit->light() == lit->light() &&
                         covers(kept.lit->fitted(), lit->receivers());
     isSame ? lit->takeMapOf(*kept.lit) : lit->takeRoomOf(*kept.lit);
     madeAnything_ = madeAnything_ || (detail.wholeScene && !isSame);
   }
-  if (other.lit == kept.lit) other = {};
   kept = {.key = key, .lit = std::move(lit), .isLoose = detail.wholeScene};
   return *kept.lit;
 }

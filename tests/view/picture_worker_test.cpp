@@ -82,6 +82,25 @@ TEST_F(PictureWorkerTest, AtRestIsWhatRenderWrites) {
   for (size_t side = 0; side < 2; ++side) EXPECT_EQ(moved->sides[side].image.values, rendered(state, side).values);
 }
 
+// Sides that ask for one map share it until one of them asks for another.
+TEST_F(PictureWorkerTest, SidesShareAMapAndPart) {
+  ViewState state = stateOf("lshape");
+  state.split = true;
+  refined(state, 1);
+  uint64_t number = 1;
+  for (const size_t side : {size_t{1}, size_t{0}}) {
+    for (const char* map : {"spot", "cube", "paraboloid", "cube"}) {
+      state.sides[side].options.maps = parseMaps(map);
+      const auto picture = refined(state, ++number);
+      EXPECT_EQ(picture->problem, "");
+      for (size_t shown = 0; shown < 2; ++shown) {
+        EXPECT_TRUE(picture->sides[shown].counts) << map;
+        EXPECT_EQ(picture->sides[shown].image.values, rendered(state, shown).values) << map << " " << side;
+      }
+    }
+  }
+}
+
 TEST_F(PictureWorkerTest, FogAtRestIsWhatFogWrites) {
   ViewState state = stateOf("grate");
   state.fog.on = true;
