@@ -9,8 +9,8 @@
 //   directional light   looked up at     P + t (N - (N.d) d)          t: width of a texel
 //                       stored depth     + 0.001 m                    shadow_bias 0.1, a hundredth of it
 //
-// A spot light's c is what the engine adds to its clip depth, 0.0003 range / r, in metres: near is 0.025 m, or the range
-// where that is less. The range is where the map ends, since lights here need not have one.
+// A spot light's c is what the engine adds to its clip depth, 0.0003 range / r, in metres: near is 0.025 m, or the
+// range where that is less. The range is where the map ends, since lights here need not have one.
 //
 // Differs: a point light is two paraboloids there, of which s texels lie across each; here any map. The engine's
 // filtering is left out, and what it scales with the filter (a spot light's c) and with the cascade.
