@@ -4,6 +4,7 @@
 #include "base/message.h"
 #include "scene/draco_codec.h"
 
+#include <algorithm>
 #include <dlfcn.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/image.h"
+#include "tests/base/places.h"
 #include "tests/base/temporary_folder.h"
 
 #include <sys/wait.h>
@@ -45,7 +46,7 @@ code=$?
 kill $server
 exit $code
 )",
-                                                GNOMON_XVFB, before, GNOMON_PROGRAM, arguments));
+                                                GNOMON_XVFB, before, test::inBuild("gnomon"), arguments));
     return shell("sh run");
   }
   Result play(const std::string& arguments, const std::string& script) const {
@@ -86,7 +87,7 @@ TEST_F(WindowTest, PicturesAreThoseOfTheCommandInTheStatusLine) {
   EXPECT_NE(commands[2].find("--light lantern@"), std::string::npos) << commands[2];
   for (size_t i = 0; i < 3; ++i) {
     const std::string words = commands[i].substr(std::string("gnomon").size());
-    expectFine(shell(fmt::format("'{}'{}", GNOMON_PROGRAM, words)));
+    expectFine(shell(fmt::format("'{}'{}", test::inBuild("gnomon"), words)));
     expectSame("picture.png", fmt::format("{}.png", "abc"[i]));
   }
   expectSame("a.png", "d.png");  // undone
@@ -123,7 +124,7 @@ TEST_F(WindowTest, ItIsUsed) {
 }
 
 TEST_F(WindowTest, FogIsShownAndTurned) {
-  expectFine(shell(fmt::format("'{}' scene --density puff --for grate -o puff.vdb", GNOMON_PROGRAM)));
+  expectFine(shell(fmt::format("'{}' scene --density puff --for grate -o puff.vdb", test::inBuild("gnomon"))));
   const Result played = play("grate --size 96 --vsv-size 128x64x128 --map-size 128",
                              "key f\nwait-refined\ncommand\npicture a.png\n"
                              "key tab\nset b.integrator march\nwait-refined\npicture b.png b\nkey tab\n"
@@ -136,7 +137,7 @@ TEST_F(WindowTest, FogIsShownAndTurned) {
     commands.push_back(played.out.substr(from, played.out.find('\n', from) - from));
   ASSERT_EQ(commands.size(), 2u) << played.out;
   for (size_t i = 0; i < 2; ++i) {
-    expectFine(shell(fmt::format("'{}'{}", GNOMON_PROGRAM, commands[i].substr(std::string("gnomon").size()))));
+    expectFine(shell(fmt::format("'{}'{}", test::inBuild("gnomon"), commands[i].substr(std::string("gnomon").size()))));
     expectSame("picture.png", i == 0 ? "a.png" : "c.png");
   }
 }
@@ -176,8 +177,9 @@ TEST_F(WindowTest, MistakesAreOneLine) {
     EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   };
-  expectMistake(shell(fmt::format("DISPLAY= WAYLAND_DISPLAY= '{}' view lshape", GNOMON_PROGRAM)), 1, "xvfb-run");
-  expectMistake(shell(fmt::format("'{}' view lshape --window 12", GNOMON_PROGRAM) + "x"), 2, "12x");
+  expectMistake(shell(fmt::format("DISPLAY= WAYLAND_DISPLAY= '{}' view lshape", test::inBuild("gnomon"))), 1,
+                "xvfb-run");
+  expectMistake(shell(fmt::format("'{}' view lshape --window 12", test::inBuild("gnomon")) + "x"), 2, "12x");
   expectMistake(play("lshape", "fly away\n"), 1, "script:1: fly: no such verb");
   expectMistake(play("lshape --size 64", "wait-refined\nexpect split on\n"), 1, "script:2: split is 'off', not 'on'");
   expectMistake(play("lshape --size 64", "set a.bias biass\n"), 1, "script:1: ");
