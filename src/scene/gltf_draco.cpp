@@ -5,6 +5,7 @@
 #include "scene/draco_codec.h"
 
 #include <dlfcn.h>
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
