@@ -78,7 +78,8 @@ WHERE NOT r.superseded;
 DROP VIEW IF EXISTS media_results;
 CREATE VIEW media_results AS
 SELECT t.scene, t.light, t.camera, m.medium, m.integrator, m.steps, t.map, t.map_size, m.rel_rmse, m.rel_rmse_99,
-  x.build_ms, x.shade_ms AS integrate_ms, t.width, t.height, x.machine, m.command, m.version, m.program, m.device, m.driver, m.key
+  x.build_ms, x.shade_ms AS integrate_ms, t.width, t.height, x.machine, m.command, m.version,
+  m.program, m.device, m.driver, m.key
 FROM medium m JOIN tested t ON t.key = m.tested
 LEFT JOIN timing x ON x.key = m.key AND x.machine || x.device =
   (SELECT y.machine || y.device FROM timing y WHERE y.key = m.key ORDER BY y.at DESC, y.machine LIMIT 1)

@@ -127,7 +127,8 @@ struct MergeReport {
   std::vector<std::string> conflicts, replaced, mixtures;
 };
 
-// All rows of `parts` in one new store, aside and renamed to `out`, which may be one of them. Throws WorldError, also where somebody works on `out`.
+// All rows of `parts` in one new store, aside and renamed to `out`, which may be one of them. Throws WorldError,
+// also where somebody works on `out`.
 MergeReport mergeStores(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& out);
 
 // "Intel(R) Xeon(R), 2 cores" and the host's name.

@@ -74,8 +74,8 @@ class SweepMeasurer {
 
   // From now on of this view.
   void enter(const SweepView& view);
-  // Nothing where no pixel faces the light; then `of` says so. `leastOfWorst`: of a method, the bias error from which on
-  // a case's worst place is worth a picture; empty: none is. Throws Interrupted, WorldError.
+  // Nothing where no pixel faces the light; then `of` says so. `leastOfWorst`: of a method, the bias error from which
+  // on a case's worst place is worth a picture; empty: none is. Throws Interrupted, WorldError.
   struct Measured {
     StoredCase of;
     std::vector<StoredRow> rows;
