@@ -51,7 +51,7 @@
         const isTime = title.endsWith('ms');
         const value = row[at];
         const cell = make('td', {}, value === null ? '' : at === COUNT ? value : isTime ? value.toPrecision(3) : percent(value));
-        if (hasInterval && row[at + 1] !== null) cell.append(make('small', {}, `${percent(row[at + 1])} to ${percent(row[at + 2])}`));
+        if (hasInterval && row[at + 1] !== null) cell.append(make('small', {}, `[${percent(row[at + 1])}, ${percent(row[at + 2])}]`));
         line.append(cell);
       }
       body.append(line);
@@ -112,7 +112,7 @@
     }
     svg.append(make('text', { x: left - 8, y: y(0) + 4, 'text-anchor': 'end' }, '0'));
     for (let decade = Math.floor(from); decade <= Math.ceil(to); ++decade)
-      for (const step of [1, 2, 5]) {
+      for (const step of to - from < 1 ? [1, 1.5, 2, 3, 4, 5, 7] : [1, 2, 5]) {
         const cost = step * 10 ** decade;
         if (Math.log10(cost) < from || Math.log10(cost) > to) continue;
         const text = cost >= 1e6 ? `${cost / 1e6} M` : cost >= 1e3 ? `${cost / 1e3} k` : `${+cost.toPrecision(2)}`;
@@ -165,7 +165,10 @@
 
   function worst() {
     const method = Number(byId('method').value);
-    const shown = data.worst.filter((one) => one.method === method);
+    const all = data.worst.filter((one) => one.method === method);
+    const isChosen = (one) => (choice.scene < 0 || one.scene === data.scenes[choice.scene]) && (choice.size < 0 || one.size === data.sizes[choice.size]) &&
+      (choice.map < 0 || one.map === data.maps[choice.map].split(' ')[0]);
+    const shown = all.filter(isChosen);
     fill(byId('worst'), ...shown.map((one) => {
       const box = make('div', { class: 'case' });
       if (one.picture) box.append(make('img', { src: data.pictures[one.picture], alt: `exact shadow and labels, most ${one.label}`, loading: 'lazy' }));
@@ -174,7 +177,7 @@
       box.append(text);
       return box;
     }));
-    if (!shown.length) fill(byId('worst'), make('p', { class: 'note' }, 'It is wrong nowhere.'));
+    if (!shown.length) fill(byId('worst'), make('p', { class: 'note' }, all.length ? 'None of its ten worst cases is among what is chosen above.' : 'It is wrong nowhere.'));
   }
 
   function draw() {
@@ -182,6 +185,7 @@
     plot('texels', TEXELS, 'texels');
     plot('frames', FRAME, 'ms');
     heat();
+    worst();
   }
 
   for (const [name, values] of [['scene', data.scenes], ['map', data.maps], ['size', data.sizes]]) {
@@ -195,5 +199,4 @@
   byId('filters').hidden = byId('scripted').hidden = false;
   draw();
   pairs();
-  worst();
 })();
