@@ -7,7 +7,7 @@ namespace gnomon {
 namespace {
 
 // Sized so that two cores do it in half an hour: of 384 x 384 pixels one in a hundred thousand is a pixel and a half,
-// and there are hundreds of cases; two sizes of map tell how an error falls with its texels. `crowd` at the size of the
+// and there are hundreds of cases; three sizes of map tell how an error falls with its texels. `crowd` at the size of the
 // other scenes; a size of 19 million triangles would measure the machine.
 constexpr const char* kWhole = R"({
   // Every generated scene, by the light of its own that each map takes and one at random, from its own camera and one
@@ -21,7 +21,7 @@ constexpr const char* kWhole = R"({
   "lights": ["default", {"random": 1}],
   "cameras": ["default", {"random": 1}],
   "maps": ["cube", "paraboloid", "spot", "directional"],
-  "map_sizes": [256, 1024],
+  "map_sizes": [256, 512, 1024],
   "biases": ["all"],
   "filters": ["none"],
   "worst_pictures": 10
