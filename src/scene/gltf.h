@@ -5,7 +5,6 @@
 #include "scene/scene.h"
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +12,8 @@
 namespace gnomon {
 
 struct GltfOptions {
-  std::optional<int> scene;                                  // of those in the file; absent: the one that it shows
-  std::vector<std::filesystem::path> allowedFolders;         // beside the file's own: what its URIs may lead into
-  std::function<void(const std::filesystem::path&)> onRead;  // may be empty; called with each file that is read
+  std::optional<int> scene;                           // of those in the file; absent: the one that it shows
+  std::vector<std::filesystem::path> allowedFolders;  // beside the file's own: what its URIs may lead into
 };
 
 // Positions and cameras are taken in their rest pose: animations are not played. Skins and morph weights are refused by

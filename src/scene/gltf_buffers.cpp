@@ -89,7 +89,6 @@ std::string bytesOfUri(const std::string& uri, const std::string& what, const st
                     "put it beside the glTF file, or name its folder with --allow-path");
   if (!fs::is_regular_file(path, failure))
     throw fileError(fileName, fmt::format("{} is '{}', which is no regular file", what, shown), "name a file");
-  if (options.onRead) options.onRead(path);
   return readFile(path);
 }
 

@@ -4,8 +4,8 @@
 #include "base/message.h"
 #include "scene/draco_codec.h"
 
-#include <dlfcn.h>
 #include <algorithm>
+#include <dlfcn.h>
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>

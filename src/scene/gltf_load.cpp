@@ -346,7 +346,6 @@ Scene loadBytes(std::string_view bytes, const std::string& name, const std::file
 }  // namespace
 
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
-  if (options.onRead) options.onRead(path);
   const std::string bytes = readFile(path);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   return loadBytes(bytes, path.string(), folder, options);

@@ -173,6 +173,16 @@ std::string perCentOf(double share) {
                                                 : 4);
 }
 
+std::string factsText(const Answers& answers) {
+  const CaseTable& table = answers.table;
+  std::string facts = fmt::format("{} cases on {} scenes, {} methods, {} rows.", answers.whole().cases,
+                                  table.scenes.size(), table.methods.size(), table.cases.size());
+  if (table.empty > 0) facts += fmt::format(" {} cases light nothing that their camera sees.", table.empty);
+  if (table.failed > 0) facts += fmt::format(" {} cases failed (table failure).", table.failed);
+  if (table.superseded > 0) facts += fmt::format(" {} older rows are superseded, and left out.", table.superseded);
+  return facts;
+}
+
 std::string howIntervals(const Answers& answers) {
   return fmt::format(
       "In brackets: 95% intervals by the bootstrap, {} resamples of whole {} ({} of them), seed {}. {}", kResamples,
@@ -235,10 +245,10 @@ std::string answersMarkdown(const Answers& answers) {
       for (std::string& cell : row) cell = markdownText(cell);
     return markdownTable(rows);
   };
-  return part("ranking", table(rankingTable(answers, true))) + part("pairs", table(pairsTable(answers))) +
-         part("scenes", table(heatTable(answers, false))) + part("maps", table(heatTable(answers, true))) +
-         part("texels", table(paretoTable(answers, false))) + part("frames", table(paretoTable(answers, true))) +
-         part("intervals", howIntervals(answers) + "\n");
+  return part("facts", factsText(answers) + "\n") + part("ranking", table(rankingTable(answers, true))) +
+         part("pairs", table(pairsTable(answers))) + part("scenes", table(heatTable(answers, false))) +
+         part("maps", table(heatTable(answers, true))) + part("texels", table(paretoTable(answers, false))) +
+         part("frames", table(paretoTable(answers, true))) + part("intervals", howIntervals(answers) + "\n");
 }
 
 std::string answersJson(const Answers& answers) {

@@ -18,6 +18,8 @@ std::string answersJson(const Answers& answers);
 // The tables of docs/findings.md: each between comments that name it.
 std::string answersMarkdown(const Answers& answers);
 
+// How many cases, scenes, methods and rows it is, and what is left out.
+std::string factsText(const Answers& answers);
 // How the intervals were made, in two sentences.
 std::string howIntervals(const Answers& answers);
 // "0.0123", as per cent, with three digits that count.

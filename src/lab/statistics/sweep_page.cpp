@@ -142,16 +142,11 @@ std::string sweepPage(const Answers& answers, const std::string& version) {
   // No tag may end within the script.
   std::string data = dataOf(answers).dump(-1, ' ', false, PageJson::error_handler_t::replace), safe;
   for (const char c : data) safe += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  std::string facts = fmt::format("{} cases on {} scenes, {} methods, {} rows.", answers.whole().cases,
-                                  table.scenes.size(), table.methods.size(), table.cases.size());
-  if (table.empty > 0) facts += fmt::format(" {} cases light nothing that their camera sees.", table.empty);
-  if (table.failed > 0) facts += fmt::format(" {} cases failed (table failure).", table.failed);
-  if (table.superseded > 0) facts += fmt::format(" {} older rows are superseded, and left out.", table.superseded);
   return filled(kSweepHtml, {{"title", escaped(table.name.empty() ? "A sweep" : table.name)},
                              {"style", kSweepCss},
                              {"script", kSweepJs},
                              {"data", safe},
-                             {"facts", escaped(facts)},
+                             {"facts", escaped(factsText(answers))},
                              {"intervals", escaped(howIntervals(answers))},
                              {"ranking", staticRanking(answers)},
                              {"version", escaped(version)},

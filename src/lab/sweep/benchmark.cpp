@@ -7,8 +7,8 @@ namespace gnomon {
 namespace {
 
 // Sized so that two cores do it in half an hour: of 384 x 384 pixels one in a hundred thousand is a pixel and a half,
-// and there are hundreds of cases; three sizes of map tell how an error falls with its texels. `crowd` at the size of the
-// other scenes; a size of 19 million triangles would measure the machine.
+// and there are hundreds of cases; three sizes of map tell how an error falls with its texels. `crowd` at the size of
+// the other scenes; a size of 19 million triangles would measure the machine.
 constexpr const char* kWhole = R"({
   // Every generated scene, by the light of its own that each map takes and one at random, from its own camera and one
   // at random.

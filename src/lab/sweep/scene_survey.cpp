@@ -2,7 +2,12 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/parse_json.h"
 #include "lab/store/content_hash.h"
+#include "scene/generate.h"
+#include "scene/gltf_buffers.h"
+
+#include <cstring>
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +15,7 @@ namespace gnomon {
 
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr const char* kNote = "survey ";
@@ -79,10 +85,18 @@ Chosen<Camera> cameraOf(const Json& json) {
   return camera;
 }
 
-// Throws WorldError where one is not there.
-Json hashesOf(const std::vector<std::filesystem::path>& files) {
+void addUris(const Json& json, std::set<std::string>& uris) {
+  for (const auto& [name, value] : json.items()) {
+    if (value.is_structured()) addUris(value, uris);
+    if (name == "uri" && value.is_string()) uris.insert(value.get<std::string>());
+  }
+}
+
+Json hashesOf(const std::string& source) {
   Json hashes = Json::object();
-  for (const std::filesystem::path& file : files) hashes[file.string()] = hashOf(readFile(file));
+  std::error_code failure;
+  for (const fs::path& file : filesOfScene(source))
+    hashes[file.string()] = fs::is_regular_file(file, failure) ? hashOf(readFile(file)) : "none";
   return hashes;
 }
 
@@ -93,13 +107,32 @@ SceneSurvey surveyOf(const Json& json) {
   survey.scene.diagonal = json.at("diagonal");
   for (const Json& light : json.at("lights")) survey.scene.lights.push_back(lightOf(light));
   for (const Json& camera : json.at("cameras")) survey.scene.cameras.push_back(cameraOf(camera));
-  for (const auto& [file, hash] : json.at("files").items()) survey.files.emplace_back(file);
   for (const Json& where : json.at("found")) survey.found.insert(where.get<std::string>());
   for (const Json& pair : json.at("missing")) survey.missing.emplace_back(pair.at(0), pair.at(1));
   return survey;
 }
 
 }  // namespace
+
+std::vector<fs::path> filesOfScene(const std::string& source) {
+  std::error_code failure;
+  if (findGeneratedScene(source) != nullptr || !fs::is_regular_file(source, failure)) return {};
+  std::vector<fs::path> files = {source};
+  std::string text = readFile(source);
+  if (text.starts_with("glTF")) {  // glTF 2.0, section 4.4: after a header of 12 bytes the JSON chunk, its length first
+    uint32_t length = 0;
+    if (text.size() >= 20) std::memcpy(&length, text.data() + 12, sizeof(length));
+    text = text.size() >= 20 ? text.substr(20, length) : "";
+  }
+  std::set<std::string> uris;
+  try {
+    addUris(parseJson<Json>(text, {}), uris);
+  } catch (const Json::exception&) {  // whoever opens it says what is wrong
+  }
+  for (const std::string& uri : uris)
+    if (!uri.starts_with("data:")) files.push_back(files.front().parent_path() / percentDecoded(uri));
+  return files;
+}
 
 std::string surveyKey(const Plan& plan, const Axes& axes, const SweepScene& scene) {
   ContentHash hash;
@@ -118,14 +151,15 @@ std::string surveyKey(const Plan& plan, const Axes& axes, const SweepScene& scen
   return hash.digits();
 }
 
-std::optional<SceneSurvey> knownSurvey(const Store& store, const std::string& key, const std::string& program) {
+std::optional<SceneSurvey> knownSurvey(const Store& store, const std::string& key, const std::string& program,
+                                       const std::string& source) {
   const std::optional<std::string> text = store.note(kNote + key);
   if (!text) return std::nullopt;
   try {
     const Json json = Json::parse(*text);
     if (json.at("program") != program) return std::nullopt;
     SceneSurvey survey = surveyOf(json);
-    if (hashesOf(survey.files) != json.at("files")) return std::nullopt;
+    if (hashesOf(source) != json.at("files")) return std::nullopt;
     return survey;
   } catch (const WorldError&) {  // a file is gone
   } catch (const Json::exception&) {
@@ -133,7 +167,8 @@ std::optional<SceneSurvey> knownSurvey(const Store& store, const std::string& ke
   return std::nullopt;
 }
 
-void keepSurvey(Store& store, const std::string& key, const std::string& program, const SceneSurvey& survey) {
+void keepSurvey(Store& store, const std::string& key, const std::string& program, const std::string& source,
+                const SceneSurvey& survey) {
   Json json = Json::object();
   json["program"] = program;
   json["hash"] = survey.scene.hash;
@@ -149,7 +184,7 @@ void keepSurvey(Store& store, const std::string& key, const std::string& program
     pair.push_back(complaint);
     json["missing"].push_back(std::move(pair));
   }
-  json["files"] = hashesOf(survey.files);
+  json["files"] = hashesOf(source);
   store.setNote(kNote + key, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

@@ -16,7 +16,6 @@ namespace gnomon {
 
 struct SceneSurvey {
   SurveyedScene scene;
-  std::vector<std::filesystem::path> files;                  // that the scene was read from
   std::set<std::string> found;                               // places of the plan whose names it has
   std::vector<std::pair<std::string, std::string>> missing;  // places whose names it lacks, with the complaint
 };
@@ -26,7 +25,13 @@ std::string surveyKey(const Plan& plan, const Axes& axes, const SweepScene& scen
 
 // Nothing where it is not known, another program found it, or a file has changed since. `scene.at` and `scene.traced`
 // are not among what is known.
-std::optional<SceneSurvey> knownSurvey(const Store& store, const std::string& key, const std::string& program);
-void keepSurvey(Store& store, const std::string& key, const std::string& program, const SceneSurvey& survey);
+// `source`: the scene's name or file.
+std::optional<SceneSurvey> knownSurvey(const Store& store, const std::string& key, const std::string& program,
+                                       const std::string& source);
+void keepSurvey(Store& store, const std::string& key, const std::string& program, const std::string& source,
+                const SceneSurvey& survey);
+
+// A glTF file and what it refers to by URIs; of a generated scene nothing.
+std::vector<std::filesystem::path> filesOfScene(const std::string& source);
 
 }  // namespace gnomon

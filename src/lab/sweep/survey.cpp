@@ -71,9 +71,7 @@ class Surveyor {
   Surveyor(const Plan& plan, const Axes& axes, const SweepScene& axis) : plan_(plan), axes_(axes), axis_(axis) {}
 
   SceneSurvey survey() {
-    SetupOptions setup = axis_.setup;
-    setup.gltf.onRead = [this](const std::filesystem::path& path) { survey_.files.push_back(path); };
-    const auto traced = std::make_shared<const TracedScene>(openScene(setup));
+    const auto traced = std::make_shared<const TracedScene>(openScene(axis_.setup));
     SurveyedScene& scene = survey_.scene;
     scene.hash = hashOfScene(traced->scene);
     scene.triangles = triangleCount(traced->scene);
@@ -202,9 +200,10 @@ SceneSurvey surveyOf(const Plan& plan, const Axes& axes, const SweepScene& axis,
                      const std::string& program) {
   const std::string key = surveyKey(plan, axes, axis);
   if (store != nullptr)
-    if (std::optional<SceneSurvey> known = knownSurvey(*store, key, program)) return std::move(*known);
+    if (std::optional<SceneSurvey> known = knownSurvey(*store, key, program, axis.setup.scene))
+      return std::move(*known);
   SceneSurvey survey = Surveyor(plan, axes, axis).survey();
-  if (store != nullptr) keepSurvey(*store, key, program, survey);
+  if (store != nullptr) keepSurvey(*store, key, program, axis.setup.scene, survey);
   return survey;
 }
 
