@@ -178,7 +178,7 @@ const std::vector<BiasMethod>& biasMethods() {
        .knobs = {}},
       {.id = glsl::kBiasGodot,
        .name = "godot",
-       .sentence = "Along the normal by a texel, and 1% of the map's depth (Godot 4's defaults).",
+       .sentence = "Along the normal by texels, and a fixed distance of depth (Godot 4's defaults).",
        .knobs = {}},
       {.id = glsl::kBiasBevy,
        .name = "bevy",

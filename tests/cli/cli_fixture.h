@@ -2,6 +2,7 @@
 // The program as a person runs it: its exit code and what it prints, in a folder of the test's own.
 
 #include "base/file.h"
+#include "tests/base/places.h"
 #include "tests/base/temporary_folder.h"
 
 #include <sys/wait.h>
@@ -28,7 +29,7 @@ class CliTest : public ::testing::Test {
     for (size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@', at + 1))
       if (at == 0 || std::string_view(" ='\":,").find(arguments[at - 1]) != std::string_view::npos)
         arguments.replace(at, 1, folder_.string());
-    const std::string command = std::string(GNOMON_PROGRAM) + " " + arguments + " >" + (folder_ / "stdout").string() +
+    const std::string command = test::inBuild("gnomon") + " " + arguments + " >" + (folder_ / "stdout").string() +
                                 " 2>" + (folder_ / "stderr").string() + " </dev/null";
     const int status = std::system(command.c_str());
     Result result{.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1,

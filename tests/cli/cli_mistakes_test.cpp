@@ -2,6 +2,8 @@
 #include "cli_fixture.h"
 #include "mistakes.h"
 
+#include "tests/base/places.h"
+
 #include <fcntl.h>
 #include <sys/file.h>
 
@@ -73,11 +75,11 @@ TEST_P(MistakesTest, AreOneLineEachAndLeaveNothing) {
 INSTANTIATE_TEST_SUITE_P(All, MistakesTest, ::testing::Range(0, MistakesTest::kParts));
 
 TEST_F(CliTest, WhatIsLostOnTheWayOutExitsWith1) {
-  const std::string full = std::string(GNOMON_PROGRAM) + " scene > /dev/full 2>" + (folder_ / "err").string();
+  const std::string full = test::inBuild("gnomon") + " scene > /dev/full 2>" + (folder_ / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(full.c_str())), 1);
   EXPECT_EQ(readFile(folder_ / "err"),
             "gnomon: standard output: cannot be written, part of it is lost; No space left on device\n");
-  const std::string closed = std::string(GNOMON_PROGRAM) + " --version >&- 2>" + (folder_ / "err").string();
+  const std::string closed = test::inBuild("gnomon") + " --version >&- 2>" + (folder_ / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(closed.c_str())), 1);
   EXPECT_NE(readFile(folder_ / "err").find("standard output"), std::string::npos);
 }
@@ -109,7 +111,7 @@ TEST_F(CliTest, ALimitOnMemoryIsOneLineAboutMemory) {
     const std::string line = fmt::format(
         "ulimit -v {}; {} compare contact --maps spot --biases none --size 64 --map-size 64 --repeats 1 -o {} "
         ">/dev/null 2>{}",
-        mebibytes << 10, GNOMON_PROGRAM, (folder_ / "out").string(), (folder_ / "err").string());
+        mebibytes << 10, test::inBuild("gnomon"), (folder_ / "out").string(), (folder_ / "err").string());
     EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 1) << mebibytes;
     const std::string error = readFile(folder_ / "err");
     EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;

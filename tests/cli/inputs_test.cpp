@@ -5,6 +5,8 @@
 
 #include "cli_fixture.h"
 
+#include "tests/base/places.h"
+
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -45,7 +47,7 @@ class InputsTest : public test::CliTest {
     return counts;
   }
 
-  static fs::path caseFile(const std::string& name) { return fs::path(GNOMON_SHARED_CASES) / name; }
+  static fs::path caseFile(const std::string& name) { return fs::path(test::inSource("../shared/cases")) / name; }
 
   // A floor with a box on it and a sheet in the air, times `scale`, moved by `offset` (both exact in floats).
   fs::path yard(double scale, double offset) const {
@@ -91,7 +93,7 @@ class InputsTest : public test::CliTest {
 };
 
 #define SKIP_WITHOUT_CASES() \
-  if (!fs::is_directory(GNOMON_SHARED_CASES)) GTEST_SKIP() << "skipped: ../shared/cases is not here"
+  if (!fs::is_directory(test::inSource("../shared/cases"))) GTEST_SKIP() << "skipped: ../shared/cases is not here"
 
 TEST_F(InputsTest, HolesAndHiddenNodes) {
   SKIP_WITHOUT_CASES();

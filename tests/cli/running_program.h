@@ -3,6 +3,8 @@
 
 #include "base/file.h"
 
+#include "tests/base/places.h"
+
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,7 +25,7 @@ class RunningProgram {
  public:
   // What it prints goes to files in `folder`, which it runs in.
   RunningProgram(std::vector<std::string> words, const std::filesystem::path& folder) : folder_(folder) {
-    words.insert(words.begin(), GNOMON_PROGRAM);
+    words.insert(words.begin(), test::inBuild("gnomon"));
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
@@ -35,7 +37,7 @@ class RunningProgram {
     };
     ::dup2(open("stdout"), STDOUT_FILENO);
     ::dup2(open("stderr"), STDERR_FILENO);
-    if (::chdir(folder_.c_str()) == 0) ::execv(GNOMON_PROGRAM, argv.data());
+    if (::chdir(folder_.c_str()) == 0) ::execv(words[0].c_str(), argv.data());
     ::_exit(127);
   }
   ~RunningProgram() {

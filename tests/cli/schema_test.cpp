@@ -1,6 +1,8 @@
 // docs/results.schema.json holds for what the program writes, and for nothing else.
 #include "cli_fixture.h"
 
+#include "tests/base/places.h"
+
 #include <functional>
 
 #include <nlohmann/json.hpp>
@@ -32,8 +34,9 @@ sys.exit(1 if errors else 0)
   }
 
   bool isValid(const std::filesystem::path& file) const {
-    const std::string command = "python3 '" + (folder_ / "check.py").string() + "' '" GNOMON_SCHEMA "' '" +
-                                file.string() + "' >'" + (folder_ / "errors").string() + "' 2>&1";
+    const std::string command = "python3 '" + (folder_ / "check.py").string() + "' '" +
+                                test::inSource("docs/results.schema.json") + "' '" + file.string() + "' >'" +
+                                (folder_ / "errors").string() + "' 2>&1";
     const bool valid = std::system(command.c_str()) == 0;
     errors_ = readFile(folder_ / "errors");
     return valid;

@@ -3,6 +3,7 @@
 #include "running_program.h"
 
 #include "lab/store/store.h"
+#include "tests/base/places.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -42,9 +43,10 @@ class SweepCliTest : public CliTest {
     const pid_t child = ::fork();
     if (child != 0) return child;
     const std::string plan = (folder_ / "p.json").string(), store = (folder_ / db).string();
+    const std::string program = test::inBuild("gnomon");
     [[maybe_unused]] const auto* out = std::freopen("/dev/null", "w", stdout);
     [[maybe_unused]] const auto* err = std::freopen((folder_ / (db + ".err")).c_str(), "w", stderr);
-    ::execl(GNOMON_PROGRAM, GNOMON_PROGRAM, "sweep", plan.c_str(), "--db", store.c_str(), "--quiet", nullptr);
+    ::execl(program.c_str(), program.c_str(), "sweep", plan.c_str(), "--db", store.c_str(), "--quiet", nullptr);
     ::_exit(127);
   }
 };
@@ -103,7 +105,7 @@ TEST_F(SweepCliTest, ShardsMergeAndReportsAreWritten) {
 // Those of docs/sweep.md, but DuckDB's, which has functions of its own.
 TEST_F(SweepCliTest, QueriesOfTheDocumentationRun) {
   ASSERT_EQ(run("sweep @/p.json --db @/plan.db --quiet").exitCode, 0);
-  const std::string page = readFile(GNOMON_SWEEP_PAGE);
+  const std::string page = readFile(test::inSource("docs/sweep.md"));
   const Store store(folder_ / "plan.db", sql::Open::Existing);
   size_t queries = 0;
   for (size_t at = page.find("SELECT "); at != std::string::npos; at = page.find("SELECT ", at + 1)) {

@@ -5,6 +5,8 @@
 
 #include "cli_fixture.h"
 
+#include "tests/base/places.h"
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -396,7 +398,7 @@ TEST_F(UsageTest, HelpEndsOnceWithExitCodesAndAWrongFirstFlagIsNamed) {
 TEST_F(UsageTest, ATerminalIsToldHowLongTheRestTakes) {
   if (!isInstalled("script")) GTEST_SKIP() << "skipped: no script here";
   // Ten seconds of work on a fast machine, ended where it takes longer.
-  const std::string command = "timeout --foreground -s INT 20 " + std::string(GNOMON_PROGRAM) +
+  const std::string command = "timeout --foreground -s INT 20 " + test::inBuild("gnomon") +
                               " compare contact --maps cube --biases none --size 768 --map-size 1024 --repeats 1000";
   ASSERT_EQ(std::system(("script -qc '" + command + "' '" + (folder_ / "typed").string() + "' >/dev/null").c_str()), 0);
   EXPECT_TRUE(has(readFile(folder_ / "typed"), " left"));  // minutes on a busy machine

@@ -4,6 +4,8 @@
 
 #include "base/image.h"
 
+#include "tests/base/places.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -17,7 +19,8 @@ inline void compareWithGolden(const std::string& name, std::span<const float> vi
   Image8 picture(side, side, 1);
   ASSERT_EQ(visibility.size(), picture.values.size());
   for (size_t i = 0; i < visibility.size(); ++i) picture.values[i] = visibility[i] > 0.5f ? 255 : 0;
-  const std::filesystem::path path = std::filesystem::path(GNOMON_TEST_DIR) / "golden" / (name + ".png");
+  const std::filesystem::path path =
+      std::filesystem::path(test::inSource(GNOMON_TEST_FOLDER)) / "golden" / (name + ".png");
   if (std::getenv("GNOMON_BLESS") != nullptr) writePng(path, picture);
   const ImageF golden = readImage(path);
   ASSERT_EQ(golden.values.size(), picture.values.size());

@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "gpu/commands.h"
+#include "tests/base/places.h"
 #include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -78,13 +79,13 @@ inline int64_t GpuTest::apart(float a, float b) const {
 // A shader beside the test's source, as "tests/<name>"; it may include any .glsl beside it, and kernel.glsl.
 inline ShaderSource testShader(const std::string& name, const std::filesystem::path& folder) {
   ShaderSource source{.path = "tests/" + name, .overrides = {}};
-  for (const std::filesystem::path& from : {std::filesystem::path(GNOMON_GPU_TEST_DIR), folder})
+  for (const std::filesystem::path& from : {std::filesystem::path(test::inSource("tests/gpu")), folder})
     for (const auto& entry : std::filesystem::directory_iterator(from))
       if (entry.path().extension() == ".glsl")
         source.overrides["tests/" + entry.path().filename().string()] = readFile(entry.path());
   return source;
 }
-#define GNOMON_TEST_SHADER(name) ::gnomon::gpu::testShader(name, GNOMON_TEST_DIR)
+#define GNOMON_TEST_SHADER(name) ::gnomon::gpu::testShader(name, ::gnomon::test::inSource(GNOMON_TEST_FOLDER))
 
 // A shader that is not in a file: for a test about the text itself.
 inline ShaderSource inlineShader(const std::string& path, const std::string& text) {

@@ -3,13 +3,15 @@
 #include "base/error.h"
 #include "base/file.h"
 
+#include "tests/base/places.h"
+
 #include <gtest/gtest.h>
 
 namespace gnomon {
 namespace {
 
 Image8 load(const std::string& name) {
-  const std::string path = std::string(GNOMON_TEST_DIR) + "/flip/" + name + ".png";
+  const std::string path = test::inSource(GNOMON_TEST_FOLDER) + "/flip/" + name + ".png";
   const std::string bytes = readFile(path);
   return decodeImage(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), path);
 }

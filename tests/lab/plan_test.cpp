@@ -6,6 +6,7 @@
 #include "base/message.h"
 #include "lab/sweep/axes.h"
 #include "lab/sweep/json_places.h"
+#include "tests/base/places.h"
 #include "tests/base/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -116,7 +117,7 @@ TEST(Plan, FilesAreFoundByPatternsFromThePlansFolder) {
 }
 
 TEST(Plan, PublishedSchemaIsTheOneOfTheFields) {
-  const std::filesystem::path path = GNOMON_PLAN_SCHEMA;
+  const std::filesystem::path path = test::inSource("docs/plan.schema.json");
   if (std::getenv("GNOMON_BLESS") != nullptr) writeTextFile(path, planJsonSchema());
   EXPECT_EQ(readFile(path), planJsonSchema()) << "tools/bless writes it anew";
 }

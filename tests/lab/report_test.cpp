@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
+#include "tests/base/places.h"
 #include "tests/base/temporary_folder.h"
 
 #include <functional>
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-const fs::path kFixture = fs::path(GNOMON_TEST_DIR) / "report";
+const fs::path kFixture = fs::path(test::inSource(GNOMON_TEST_FOLDER)) / "report";
 
 // A copy of the fixture whose results.json the test changes.
 class ReportTest : public ::testing::Test {

@@ -10,6 +10,8 @@
 #include "tests/gpu_fixture.h"
 #include "vsv/volume_parameterization.h"
 
+#include "tests/base/places.h"
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -42,7 +44,7 @@ void expectTables(const std::string& docs) {
 }
 
 TEST(ResultsDocs, HaveTheTableOfEveryDeclaredField) {
-  const std::string docs = readFile(std::filesystem::path(GNOMON_TEST_DIR) / "../../docs/results.md");
+  const std::string docs = readFile(test::inSource("docs/results.md"));
   expectTables<Comparison, ProgramFacts, SceneFacts, CameraFacts, LightFacts, TruthSummary, MapSummary,
                TexelSolidAngles, Row, Walks, WorstPlace, Tuning, CameraTransfer, MapSizeTransfer, Elsewhere,
                CameraError, MapSizeError, EqualError, EqualErrorMethod, SizedError>(docs);
@@ -52,7 +54,7 @@ TEST(ResultsDocs, HaveTheTableOfEveryDeclaredField) {
 }
 
 TEST(ResultsSchema, IsMadeOfTheDeclaredFields) {
-  const std::filesystem::path path = std::filesystem::path(GNOMON_TEST_DIR) / "../../docs/results.schema.json";
+  const std::filesystem::path path = test::inSource("docs/results.schema.json");
   if (std::getenv("GNOMON_BLESS") != nullptr) writeTextFile(path, resultsJsonSchema());
   EXPECT_EQ(readFile(path), resultsJsonSchema()) << "tools/bless writes it anew";
 }

@@ -4,6 +4,8 @@
 #include "lab/core/maps.h"
 #include "omni/paraboloid_map.h"
 
+#include "tests/base/places.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -119,8 +121,9 @@ class SeamsTest : public ::testing::TestWithParam<const char*> {};
 TEST_P(SeamsTest, ShowNoMoreErrorThanElsewhere) {
   std::string scene = GetParam();
   if (scene.ends_with(".glb")) {
-    scene = std::string(GNOMON_SHARED_SCENES) + "/" + scene;
-    if (!std::filesystem::is_directory(GNOMON_SHARED_SCENES)) GTEST_SKIP() << "skipped: ../shared/scenes is not here";
+    scene = test::inSource("../shared/scenes") + "/" + scene;
+    if (!std::filesystem::is_directory(test::inSource("../shared/scenes")))
+      GTEST_SKIP() << "skipped: ../shared/scenes is not here";
   }
   Seams seams(scene);
   LightOnMap through = seams.mapped("paraboloid", 887, {kParaboloidAxisW(seams.axisThroughTheMiddle())});

@@ -12,6 +12,7 @@
 #include "lab/sweep/results_version.h"
 #include "scene/generate.h"
 #include "scene/gltf.h"
+#include "tests/base/places.h"
 #include "tests/gpu_fixture.h"
 
 #include <cstdlib>
@@ -256,7 +257,7 @@ TEST(Sweep, AnswersRankAndPairAndShow) {
 // A key says nothing of C++ code but by kCountsVersion.
 TEST(Sweep, CountsChangeOnlyWithTheirVersion) {
   const TemporaryFolder folder;
-  const fs::path db = folder.path() / "s.db", path = GNOMON_RESULTS_VERSION_GOLDEN;
+  const fs::path db = folder.path() / "s.db", path = test::inSource("tests/lab/results_version.golden.txt");
   const SweepOutcome outcome = sweep(db, R"({"scenes": ["contact", "grate"], "size": "48", "repeats": 0,
     "maps": ["cube", "paraboloid", "spot", "directional"], "map_sizes": [48], "biases": ["all"],
     "worst_pictures": 0})");

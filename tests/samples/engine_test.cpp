@@ -7,6 +7,7 @@
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
 #include "scene/gltf.h"
+#include "tests/base/places.h"
 #include "tests/base/temporary_folder.h"
 #include "vsv/media/media_pass.h"
 #include "vsv/volume_parameterization.h"
@@ -30,9 +31,10 @@ class Engine : public ::testing::Test {
   // Once for all tests of this process.
   static const std::filesystem::path& folder() {
     static const test::TemporaryFolder made;
-    static const int result = std::system((std::string(GNOMON_ENGINE) + " --validation " + made.path().string() + " >" +
-                                           (made.path() / "out").string() + " 2>" + (made.path() / "err").string())
-                                              .c_str());
+    static const int result =
+        std::system((test::inBuild("samples/engine/engine") + " --validation " + made.path().string() + " >" +
+                     (made.path() / "out").string() + " 2>" + (made.path() / "err").string())
+                        .c_str());
     if (result != 0) ADD_FAILURE() << readFile(made.path() / "err") << readFile(made.path() / "out");
     return made.path();
   }
@@ -141,7 +143,7 @@ TEST_F(Engine, AMapThatTheRendererDrawsDiffersInAFewPixels) {
 // What its counts are of, at last: the exact shadow.
 TEST_F(Engine, CountsAreThoseOfCompare) {
   const test::TemporaryFolder made;
-  const std::string command = std::string(GNOMON_PROGRAM) + " compare " + (folder() / "room.gltf").string() +
+  const std::string command = test::inBuild("gnomon") + " compare " + (folder() / "room.gltf").string() +
                               " --maps cube --map-size 512 --size 512 --biases adaptive,witness --depth-range 0.1,12"
                               " --repeats 1 --json " +
                               (made.path() / "results.json").string() + " >" + (made.path() / "table").string();

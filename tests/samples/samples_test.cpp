@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "base/image.h"
 #include "gpu/device.h"
+#include "tests/base/places.h"
 #include "tests/base/temporary_folder.h"
 
 #include <algorithm>
@@ -29,11 +30,12 @@ TEST_P(Samples, DrawsItsPicture) {
   const std::string name = GetParam().name;
   const std::filesystem::path picture = folder.path() / "picture.png";
   const std::filesystem::path messages = folder.path() / "stderr";
-  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/" + name + " " + GetParam().scene + " " +
-                              picture.string() + " 2>" + messages.string() + " >/dev/null";
+  const std::string command = test::inBuild("samples") + "/" + name + " " + GetParam().scene + " " + picture.string() +
+                              " 2>" + messages.string() + " >/dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0) << readFile(messages);
   EXPECT_EQ(readFile(messages), "");
-  const std::filesystem::path golden = std::filesystem::path(GNOMON_TEST_DIR) / "golden" / (name + ".png");
+  const std::filesystem::path golden =
+      std::filesystem::path(test::inSource("tests/samples")) / "golden" / (name + ".png");
   if (std::getenv("GNOMON_BLESS") != nullptr)
     std::filesystem::copy_file(picture, golden, std::filesystem::copy_options::overwrite_existing);
   const ImageF expected = readImage(golden);
@@ -61,8 +63,7 @@ bool drawsOnLavapipe() {
 TEST(Samples05, AMapOfOnesOwnIsScoredBesideTheCube) {
   const test::TemporaryFolder folder;
   const std::filesystem::path table = folder.path() / "stdout";
-  const std::string command =
-      std::string(GNOMON_SAMPLES_DIR) + "/05_map_of_my_own tilted-planes 98304 >" + table.string();
+  const std::string command = test::inBuild("samples") + "/05_map_of_my_own tilted-planes 98304 >" + table.string();
   ASSERT_EQ(std::system(command.c_str()), 0);
   std::istringstream lines(readFile(table));
   int rows = 0;  // map side bias parameters... acne leak edge bias-error all-wrong rmse frame-ms
@@ -89,7 +90,7 @@ TEST(Samples05, AMapOfOnesOwnIsScoredBesideTheCube) {
 
 std::string messageOf(const std::filesystem::path& scene, const std::filesystem::path& folder) {
   const std::filesystem::path messages = folder / "stderr";
-  const std::string command = std::string(GNOMON_SAMPLES_DIR) + "/01_point_light_cube " + scene.string() + " " +
+  const std::string command = test::inBuild("samples") + "/01_point_light_cube " + scene.string() + " " +
                               (folder / "x.png").string() + " 2>" + messages.string();
   EXPECT_NE(std::system(command.c_str()), 0);
   const std::string message = readFile(messages);

@@ -4,6 +4,8 @@
 #include "base/file.h"
 #include "scene/gltf.h"
 
+#include "tests/base/places.h"
+
 #include <algorithm>
 #include <filesystem>
 
@@ -17,7 +19,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> corpus() {
   std::vector<std::string> names;
   std::error_code failure;
-  for (const fs::directory_entry& entry : fs::directory_iterator(GNOMON_BROKEN_GLTF, failure))
+  for (const fs::directory_entry& entry : fs::directory_iterator(test::inBuild("tests/scene/broken_gltf"), failure))
     names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -39,7 +41,7 @@ void expectOneLine(const std::string& message, const std::string& name) {
 class BrokenGltf : public testing::TestWithParam<std::string> {};
 
 TEST_P(BrokenGltf, isRefusedWithOneLine) {
-  const fs::path path = fs::path(GNOMON_BROKEN_GLTF) / GetParam();
+  const fs::path path = fs::path(test::inBuild("tests/scene/broken_gltf")) / GetParam();
   try {
     loadGltf(path);
     FAIL() << GetParam() << " was loaded";
@@ -49,7 +51,7 @@ TEST_P(BrokenGltf, isRefusedWithOneLine) {
 }
 
 TEST_P(BrokenGltf, isRefusedFromMemoryToo) {
-  const std::string bytes = readFile(fs::path(GNOMON_BROKEN_GLTF) / GetParam());
+  const std::string bytes = readFile(fs::path(test::inBuild("tests/scene/broken_gltf")) / GetParam());
   EXPECT_THROW(loadGltfFromMemory(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), GetParam()),
                WorldError);
 }

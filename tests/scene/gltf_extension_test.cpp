@@ -6,6 +6,8 @@
 #include "scene/gltf.h"
 #include "scene/gltf_extensions.h"
 
+#include "tests/base/places.h"
+
 #include <algorithm>
 #include <filesystem>
 
@@ -65,7 +67,7 @@ TEST(GltfExtensions, AreToldOrRefusedAsTheTableSays) {
 }
 
 TEST(GltfExtensions, AreInTheDocumentationRowByRow) {
-  const std::string page = readFile(fs::path(GNOMON_DOCS) / "gltf.md");
+  const std::string page = readFile(test::inSource("docs/gltf.md"));
   for (const GltfExtension& extension : gltfExtensions())
     EXPECT_NE(page.find("| `" + std::string(extension.name) + "` |"), std::string::npos) << extension.name;
 }

@@ -5,6 +5,8 @@
 #include "base/image.h"
 #include "gltf_text.h"
 
+#include "tests/base/places.h"
+
 #include <cmath>
 #include <filesystem>
 
@@ -337,7 +339,7 @@ TEST(GltfFiles, buffersAndImagesBesideTheFileAreFound) {
 }
 
 TEST(RealScenes, load) {
-  const fs::path folder = GNOMON_SHARED_SCENES;
+  const fs::path folder = test::inSource("../shared/scenes");
   if (!fs::is_directory(folder)) GTEST_SKIP() << "skipped: ../shared/scenes is not here";
   // Triangles of all instances, and lights, as counted from the files' JSON.
   const struct {

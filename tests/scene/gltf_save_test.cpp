@@ -5,6 +5,7 @@
 #include "scene/generate.h"
 #include "scene/gltf.h"
 #include "tests/base/file_limit.h"
+#include "tests/base/places.h"
 
 #include <filesystem>
 
@@ -112,10 +113,10 @@ INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::ValuesIn(generatedScenes()),
                          });
 
 TEST(RoundTripOfFiles, realScenesLoadAgainEqual) {
-  if (!fs::is_directory(GNOMON_SHARED_SCENES)) GTEST_SKIP() << "skipped: ../shared/scenes is not here";
+  if (!fs::is_directory(test::inSource("../shared/scenes"))) GTEST_SKIP() << "skipped: ../shared/scenes is not here";
   const Folder folder;
   size_t scenes = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(GNOMON_SHARED_SCENES)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(test::inSource("../shared/scenes"))) {
     if (entry.path().extension() != ".glb" && entry.path().extension() != ".gltf") continue;
     const Scene scene = loadGltf(entry.path());
     const fs::path path = folder / (scene.name + ".glb");

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "map_fixture.h"
 #include "shadow/user_bias_check.h"
+#include "tests/base/places.h"
 #include "tests/base/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -216,7 +217,7 @@ TEST_F(UserBiasTest, WhatDoesNotCompileNamesFileAndLine) {
 }
 
 TEST_F(UserBiasTest, TheSampleKeepsPlanesClean) {
-  const auto sample = loadUserBias(std::filesystem::path(GNOMON_TEST_DIR) / "../../samples/my_bias.glsl");
+  const auto sample = loadUserBias(test::inSource("samples/my_bias.glsl"));
   const test::Rendered r = test::render(device(), "tilted-planes", spotParameterization(), 256, 256, CullMode::Solids);
   const auto seenBy = [&](const BiasMethod& method) {
     return visibility(r, method, defaultBiasParams(method, r.fitted.map.sceneScale));

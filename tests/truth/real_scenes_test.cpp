@@ -4,6 +4,8 @@
 
 #include "scene/gltf.h"
 
+#include "tests/base/places.h"
+
 #include <cmath>
 #include <filesystem>
 
@@ -39,8 +41,9 @@ std::vector<LightModel> lightsOf(const Scene& scene) {
 class RealScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealScene, HangsOnTheMarginAtFewerThanOnePixelInTenThousand) {
-  const std::filesystem::path path = std::filesystem::path(GNOMON_SHARED_SCENES) / GetParam();
-  if (!std::filesystem::is_directory(GNOMON_SHARED_SCENES)) GTEST_SKIP() << "skipped: ../shared/scenes is not here";
+  const std::filesystem::path path = std::filesystem::path(test::inSource("../shared/scenes")) / GetParam();
+  if (!std::filesystem::is_directory(test::inSource("../shared/scenes")))
+    GTEST_SKIP() << "skipped: ../shared/scenes is not here";
   const Scene scene = loadGltf(path);
   const Tracer tracer(scene);
   const glsl::CameraView camera = cameraOf(scene, 512);

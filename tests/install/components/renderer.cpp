@@ -11,8 +11,13 @@
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
 #endif
+#include "base/version.h"
 #include "gpu/features.h"
 #include "shadow/embedded_shadow.h"
+
+#if GNOMON_VERSION_MAJOR != 0 || GNOMON_VERSION_MINOR < 1
+#error "written for Gnomon 0.1"
+#endif
 
 #if defined(VULKAN_HPP) || defined(VULKAN_HPP_NAMESPACE) || defined(OPENVDB_VERSION_NAME) || \
     defined(NLOHMANN_JSON_VERSION_MAJOR) || defined(TINYGLTF_MODE_DEFAULT)

@@ -8,6 +8,8 @@
 #include "shadow/map_image.h"
 #include "tests/judge/lit_map.h"
 
+#include "tests/base/places.h"
+
 #include <fmt/format.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
@@ -138,9 +140,9 @@ TEST(Export, CompilesForEveryMapBiasAndFilter) {
   EXPECT_EQ(count, kinds().size() * biasMethods().size() * filters().size());
   const test::TemporaryFolder folder;
   writeTextFile(folder.path() / "all.cpp", metal);
-  const std::string command =
-      fmt::format("{} -std=c++14 -fsyntax-only -w -I {}/export/metal {} 2>{}", GNOMON_CXX, GNOMON_TEST_DIR,
-                  (folder.path() / "all.cpp").string(), (folder.path() / "errors").string());
+  const std::string command = fmt::format("{} -std=c++14 -fsyntax-only -w -I {}/export/metal {} 2>{}", GNOMON_CXX,
+                                          test::inSource(GNOMON_TEST_FOLDER), (folder.path() / "all.cpp").string(),
+                                          (folder.path() / "errors").string());
   EXPECT_EQ(std::system(command.c_str()), 0) << readFile(folder.path() / "errors").substr(0, 2000);
 }
 
@@ -188,8 +190,8 @@ class ExportOnTheGpu : public gpu::GpuTest {
     // Behind the bindings of the scene.
     constexpr uint32_t kFirst = 50;
     text = std::regex_replace(text, std::regex("layout\\(binding = "), "layout(binding = 5");
-    gpu::ShaderSource source =
-        gpu::testShader("evaluate_export.comp.glsl", std::filesystem::path(GNOMON_TEST_DIR) / "export");
+    gpu::ShaderSource source = gpu::testShader("evaluate_export.comp.glsl",
+                                               std::filesystem::path(test::inSource(GNOMON_TEST_FOLDER)) / "export");
     source.overrides["tests/exported.glsl"] = text;
     source.overrides["tests/exported_map.glsl"] = fillOf(text, choice.map.sliceCount);
     const gpu::ComputeProgram program(device(), source, {{.id = 4, .value = map.seen.buffers().instanced ? 1 : 0}});
@@ -307,8 +309,8 @@ TEST_F(ExportOnTheGpu, GivesItOfInstances) {
 TEST_F(ExportOnTheGpu, HeadersGiveItOfTwoMapsInOneShader) {
   LitMap cube(device(), "contact", cubeParameterization(), 96, {.side = 64});
   LitMap spot(device(), "contact", spotParameterization(), 96, {.side = 48});
-  gpu::ShaderSource source =
-      gpu::testShader("evaluate_headers.comp.glsl", std::filesystem::path(GNOMON_TEST_DIR) / "export");
+  gpu::ShaderSource source = gpu::testShader("evaluate_headers.comp.glsl",
+                                             std::filesystem::path(test::inSource(GNOMON_TEST_FOLDER)) / "export");
   for (const auto& [name, text] : publicHeaders()) source.overrides["gnomon/glsl/" + name] = text;
   for (const char* bias :
        {"constant", "slope", "normal-offset", "adaptive", "dual", "godot", "two-plane-depth", "witness"})
