@@ -10,6 +10,7 @@
 #include "lab/sweep/measure.h"
 #include "lab/sweep/random_places.h"
 #include "lab/sweep/results_version.h"
+#include "lab/sweep/scene_survey.h"
 #include "scene/generate.h"
 #include "scene/gltf.h"
 #include "tests/base/places.h"
@@ -166,6 +167,20 @@ TEST(Sweep, ASurveyIsKeptUntilAFileOrTheProgramChanges) {
   saveGlb(openScene("contact"), folder.path() / "mine.glb");
   const Survey changed = surveyScenes(plan, axes, &store, "another");
   EXPECT_NE(changed.scenes[0].hash, a.hash);
+}
+
+TEST(Sweep, ASceneIsAllOfItsFiles) {
+  const TemporaryFolder folder;
+  const fs::path gltf = folder.path() / "a.gltf", glb = folder.path() / "b.glb";
+  writeTextFile(gltf, R"({"buffers": [{"uri": "a%20b.bin"}], "images": [{"uri": "data:image/png;base64,AA=="}, {"uri":
+    "t/c.png"}]})");
+  EXPECT_EQ(filesOfScene(gltf.string()),
+            (std::vector<fs::path>{gltf, folder.path() / "a b.bin", folder.path() / "t/c.png"}));
+  saveGlb(openScene("corner"), glb);
+  EXPECT_EQ(filesOfScene(glb.string()), std::vector<fs::path>{glb});
+  EXPECT_TRUE(filesOfScene("corner").empty());
+  writeTextFile(gltf, "no JSON");
+  EXPECT_EQ(filesOfScene(gltf.string()), std::vector<fs::path>{gltf});
 }
 
 TEST(Sweep, AnotherVersionOfTheResultsIsMeasuredAnewAndAnotherProgramIsNot) {

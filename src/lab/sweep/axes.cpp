@@ -131,7 +131,8 @@ MapOptions optionsOf(const Plan& plan, const PlanMap& item) {
   const Parameterization& map = findMap(plan, item.where, item.map);
   std::string names;
   for (const MapOption* option : map.options()) names += (names.empty() ? "" : ", ") + option->flag().substr(2);
-  for (const auto& [name, text] : item.options) {
+  for (const auto& given : item.options) {
+    const std::string &name = given.first, &text = given.second;
     const std::string where = item.where + ".options." + name;
     const auto own = map.options();
     const auto found = std::ranges::find_if(
@@ -184,7 +185,8 @@ void addMethods(const Plan& plan, const PlanBias& item, const BiasMethod& bias,
   methods.front().label = bias.name;
   methods.front().bias = &bias;
   methods.front().user = user;
-  for (const auto& [name, text] : item.choices) {
+  for (const auto& given : item.choices) {
+    const std::string &name = given.first, &text = given.second;
     const std::string where = item.where + ".choices." + name;
     std::string names;
     const BiasChoice* found = nullptr;
@@ -198,7 +200,9 @@ void addMethods(const Plan& plan, const PlanBias& item, const BiasMethod& bias,
     methods.front().knobs.choices.*found->member = at(plan, where, [&] { return found->parse(text); });
     methods.front().label += fmt::format(" {}={}", name, text);
   }
-  for (const auto& [name, values] : item.parameters) {
+  for (const auto& given : item.parameters) {
+    const std::string& name = given.first;
+    const std::vector<double>& values = given.second;
     const std::string where = item.where + ".parameters." + name;
     const std::vector<Knob>& knobs = knobsOf(bias);
     const auto knob = std::ranges::find_if(knobs, [&](const Knob& each) { return each.name == name; });
