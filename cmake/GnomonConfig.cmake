@@ -1,8 +1,8 @@
 # find_package(Gnomon [COMPONENTS shadow omni vsv media ...]): gnomon::shadow and so on, with what they link and no more.
 # A component is a library by its name (GnomonLibraries.cmake lists them); without components all of them are found.
 #
-# The four for a renderer of its own: shadow (maps and their look-up), omni (cube and paraboloid), vsv (shadow volumes),
-# media (light shafts); each includes the ones before it. They ask for glm, fmt, Vulkan and glslang, and from omni on
+# Those for a renderer of its own: shadow (maps and their look-up), planar (spot and directional), omni (cube and
+# paraboloid), vsv (shadow volumes), media (light shafts). They ask for glm, fmt, Vulkan and glslang, and from omni on
 # oneTBB. judge and what is above it ask for Embree, OpenImageIO and the rest.
 include(CMakeFindDependencyMacro)
 include(${CMAKE_CURRENT_LIST_DIR}/GnomonLibraries.cmake)

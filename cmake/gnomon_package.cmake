@@ -38,7 +38,7 @@ set(flags_of_glslang -lglslang-default-resource-limits -lSPIRV -lglslang -lMachi
     -lGenericCodeGen -lOGLCompiler)
 set(flags_of_Threads -pthread)
 file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-foreach(component shadow omni vsv media)
+foreach(component shadow planar omni vsv media)
   set(wanted ${component})
   set(archives "")
   set(requires "")

@@ -1,6 +1,7 @@
 #include "planar/planar_map.h"
 
 #include "base/error.h"
+#include "planar/convex_body.h"
 #include "planar/slice_points.h"
 #include "planar/warp.h"
 #include "planar/window.h"
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -181,6 +184,25 @@ std::string wideConeNote(const LightModel& light) {
       degrees);
 }
 
+// Of slices finest first.
+void setMap(FittedMap& fitted, const AxisFrame& frame, const Bounds& bounds, int side,
+            std::span<const SliceFit> slices) {
+  fitted.frame = toShared(frame);
+  fitted.positional = frame.perspective;
+  fitted.zNear = static_cast<float>(slices[0].zNear);
+  fitted.zFar = static_cast<float>(slices[0].zFar);
+  fitted.map = {};
+  fitted.map.kind = glsl::kMapPlanar;
+  fitted.map.sliceCount = static_cast<int>(slices.size());
+  fitted.map.width = fitted.map.height = side;
+  fitted.map.sceneScale = bounds.diagonal();
+  for (size_t i = 0; i < slices.size(); ++i) {
+    // The inverse is that of the rounded matrix, which is what the map is drawn with.
+    const glm::mat4 clip(clipFromLight(slices[i], frame.perspective));
+    fitted.map.mapSlices[i] = {.clipFromLight = clip, .lightFromClip = glm::mat4(glm::inverse(glm::dmat4(clip)))};
+  }
+}
+
 FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
   checkPlanarOptions(input.options);
   const Bounds bounds = computeBounds(input.scene);
@@ -206,24 +228,65 @@ FittedMap fitPlanar(const FitInput& input, bool perspective, int cascadeCount) {
   // Finest first: of the windows that hold a point the first is taken. Texels are small where the scale is large.
   std::ranges::stable_sort(planes, std::ranges::greater(),
                            [](const glm::dmat3& m) { return std::abs(glm::determinant(m)); });
+  std::vector<SliceFit> slices;
+  for (const glm::dmat3& plane : planes) slices.push_back(fitDepth(input, frame, bounds, plane));
+  setMap(fitted, frame, bounds, input.side, slices);
+  return fitted;
+}
 
-  fitted.frame = toShared(frame);
-  fitted.positional = perspective;
-  fitted.map = {};
-  fitted.map.kind = glsl::kMapPlanar;
-  fitted.map.sliceCount = cascadeCount;
-  fitted.map.width = fitted.map.height = input.side;
-  fitted.map.sceneScale = bounds.diagonal();
-  for (size_t i = 0; i < planes.size(); ++i) {
-    const SliceFit slice = fitDepth(input, frame, bounds, planes[i]);
-    if (i == 0) {
-      fitted.zNear = static_cast<float>(slice.zNear);
-      fitted.zFar = static_cast<float>(slice.zFar);
+// The part of the bounds that a map of theirs is to cover.
+ConvexBody coveredBody(const FitInput& input, const AxisFrame& frame, const Bounds& bounds, bool cameraCuts) {
+  ConvexBody body(bounds);
+  if (cameraCuts) cutToView(body, input.camera);
+  if (frame.perspective) cutToCone(body, input.light, frame, leastCasterDepth(bounds));
+  return body;
+}
+
+// Depth at which the bounds begin within a directional window, metres.
+double nearestOfBounds(const Bounds& bounds, const AxisFrame& frame, const glm::dmat3& clipFromPlane) {
+  ConvexBody body(bounds);
+  const glm::dmat3 rows = glm::transpose(clipFromPlane);
+  for (int axis = 0; axis < 2; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      const glm::dvec3 row = rows[2] + sign * rows[axis];  // W +- X >= 0
+      const glm::dvec3 normal = frame.worldFromLight[0] * row.x + frame.worldFromLight[1] * row.y;
+      body.cut(normal, row.z - glm::dot(normal, frame.originW));
     }
-    // The inverse is that of the rounded matrix, which is what the map is drawn with.
-    const glm::mat4 clip(clipFromLight(slice, perspective));
-    fitted.map.mapSlices[i] = {.clipFromLight = clip, .lightFromClip = glm::mat4(glm::inverse(glm::dmat4(clip)))};
   }
+  double nearest = std::numeric_limits<double>::max();
+  for (const glm::dvec3& corner : body.corners()) nearest = std::min(nearest, frame.planeFromWorld(corner).z);
+  return nearest;
+}
+
+FittedMap fitToBounds(const LightModel& light, const BoundsFit& fit, bool perspective) {
+  const Bounds& bounds = fit.boundsW;
+  const double sceneScale = std::max(static_cast<double>(bounds.diagonal()), 1e-6);
+  const AxisFrame frame =
+      axisFrame(perspective ? light.positionW : glm::dvec3(bounds.center()), light.directionW, perspective);
+  const Scene none;
+  const glsl::CameraView anywhere{};
+  FitInput input{.scene = none,
+                 .light = light,
+                 .receiversW = {},
+                 .side = fit.side,
+                 .camera = fit.camera != nullptr ? *fit.camera : anywhere};
+  input.options.set(kSnap(fit.snap));
+  const std::vector<glm::dvec3> corners = coveredBody(input, frame, bounds, fit.camera != nullptr).corners();
+  std::vector<glm::dvec2> points;
+  double farthest = perspective ? leastCasterDepth(bounds) : -4.0 * sceneScale;  // as fitDepth() has it
+  for (const glm::dvec3& corner : corners) {
+    const glm::dvec3 plane = frame.planeFromWorld(corner);
+    points.emplace_back(plane);
+    farthest = std::max(farthest, plane.z);
+  }
+  if (points.empty()) points = {glm::dvec2(-1.0), glm::dvec2(1.0)};  // nothing to cover, as in slicePoints()
+  SliceFit slice{.clipFromPlane = fitWindow(input, frame, points, sceneScale), .zFar = farthest};
+  slice.zNear = perspective ? std::min(std::max(fit.zNear, leastCasterDepth(bounds)), farthest)
+                            : std::min(nearestOfBounds(bounds, frame, slice.clipFromPlane), farthest);
+  setDepthRow(slice, frame, sceneScale, fit.snap);
+  FittedMap fitted;
+  if (perspective) fitted.note = wideConeNote(light);
+  setMap(fitted, frame, bounds, fit.side, {&slice, 1});
   return fitted;
 }
 
@@ -276,6 +339,14 @@ class DirectionalParameterization final : public Parameterization {
 };
 
 }  // namespace
+
+FittedMap makeSpotMap(const LightModel& light, const BoundsFit& fit) {
+  return fitToBounds(light, fit, true);
+}
+
+FittedMap makeDirectionalMap(const LightModel& light, const BoundsFit& fit) {
+  return fitToBounds(light, fit, false);
+}
 
 const Parameterization& spotParameterization() {
   static const SpotParameterization spot;

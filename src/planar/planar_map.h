@@ -33,4 +33,18 @@ const Parameterization& directionalParameterization();
 // Both.
 const std::vector<const Parameterization*>& planarParameterizations();
 
+// What a renderer of its own fits a map to: it has no scene on the CPU, but bounds that hold every caster and receiver.
+struct BoundsFit {
+  Bounds boundsW;                            // metres
+  int side = 1024;                           // texels
+  const glsl::CameraView* camera = nullptr;  // covers what it sees of the bounds (cameraOf()); nullptr: all of them
+  double zNear = 0.01;                       // of a spot, metres along its axis: nearer than every caster
+  bool snap = true;                          // kSnap
+};
+// A spot map of what of the bounds lies in the light's cone, and a directional map whose near end is where the bounds
+// begin in front of its window. Nothing else than what the light and the fit say is known of the scene: where triangles
+// stand nearer or less far, spotParameterization().fit() leaves depth more of its digits.
+FittedMap makeSpotMap(const LightModel& light, const BoundsFit& fit);
+FittedMap makeDirectionalMap(const LightModel& light, const BoundsFit& fit);
+
 }  // namespace gnomon

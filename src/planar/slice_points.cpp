@@ -39,28 +39,14 @@ std::vector<Slice> viewSlices(const FitInput& input, int count) {
   return slices;
 }
 
-double tanCone(const FitInput& input) {
-  return std::tan(std::min(input.light.outerConeRad, kWidestConeRad));
-}
-
-// The pyramid about a spot's cone.
-void cutToCone(ConvexBody& body, const FitInput& input, const AxisFrame& frame, double least) {
-  const double width = tanCone(input);
-  const auto cutThroughLight = [&](const glm::dvec3& normal, double offset) {
-    body.cut(normal, -glm::dot(normal, frame.originW) + offset);
-  };
-  const glm::dvec3 ahead = -frame.worldFromLight[2];
-  for (const double sign : {1.0, -1.0})
-    for (int axis = 0; axis < 2; ++axis) cutThroughLight(ahead * width + sign * frame.worldFromLight[axis], 0.0);
-  cutThroughLight(ahead, -least);
+double tanCone(const LightModel& light) {
+  return std::tan(std::min(light.outerConeRad, kWidestConeRad));
 }
 
 void addTight(Points& points, const FitInput& input, const AxisFrame& frame, const Bounds& bounds, const Slice& slice) {
   ConvexBody body(bounds);
-  // clipFromWorld maps to reversed depth without a far end: z is the near plane's distance everywhere.
-  const double nearPlane = static_cast<double>(input.camera.clipFromWorld[3][2]);
-  body.cutToCamera(input.camera, std::max(slice.nearest, nearPlane), slice.farthest);
-  if (frame.perspective) cutToCone(body, input, frame, leastCasterDepth(bounds));
+  cutToView(body, input.camera, slice.nearest, slice.farthest);
+  if (frame.perspective) cutToCone(body, input.light, frame, leastCasterDepth(bounds));
   for (const glm::dvec3& corner : body.corners()) points.emplace_back(frame.planeFromWorld(corner));
 }
 
@@ -72,7 +58,7 @@ void addWhole(Points& points, const FitInput& input, const AxisFrame& frame, con
     if (!frame.perspective)
       points.emplace_back(frame.planeFromWorld(glm::dvec3(corner)));
     else if (i < 4)
-      points.emplace_back(tanCone(input) * glm::dvec2((i & 1) * 2 - 1, (i & 2) - 1));
+      points.emplace_back(tanCone(input.light) * glm::dvec2((i & 1) * 2 - 1, (i & 2) - 1));
   }
 }
 
@@ -80,6 +66,23 @@ void addWhole(Points& points, const FitInput& input, const AxisFrame& frame, con
 
 double leastCasterDepth(const Bounds& sceneBounds) {
   return kLeastNear * std::max(static_cast<double>(sceneBounds.diagonal()), 1e-30);
+}
+
+void cutToView(ConvexBody& body, const glsl::CameraView& camera, double nearest, double farthest) {
+  // clipFromWorld maps to reversed depth without a far end: z is the near plane's distance everywhere.
+  const double nearPlane = static_cast<double>(camera.clipFromWorld[3][2]);
+  body.cutToCamera(camera, std::max(nearest, nearPlane), farthest);
+}
+
+void cutToCone(ConvexBody& body, const LightModel& light, const AxisFrame& frame, double least) {
+  const double width = tanCone(light);
+  const auto cutThroughLight = [&](const glm::dvec3& normal, double offset) {
+    body.cut(normal, -glm::dot(normal, frame.originW) + offset);
+  };
+  const glm::dvec3 ahead = -frame.worldFromLight[2];
+  for (const double sign : {1.0, -1.0})
+    for (int axis = 0; axis < 2; ++axis) cutThroughLight(ahead * width + sign * frame.worldFromLight[axis], 0.0);
+  cutThroughLight(ahead, -least);
 }
 
 std::vector<std::vector<glm::dvec2>> slicePoints(const FitInput& input, const AxisFrame& frame,

@@ -1,6 +1,7 @@
 #pragma once
 // The points that each cascade of a planar map must cover, for the chosen fit.
 
+#include "planar/convex_body.h"
 #include "planar/window.h"
 #include "shadow/parameterization.h"
 
@@ -13,5 +14,10 @@ std::vector<std::vector<glm::dvec2>> slicePoints(const FitInput& input, const Ax
 
 // Depth before which a spot sees nothing, metres.
 double leastCasterDepth(const Bounds& sceneBounds);
+
+// Leaves of a body what a camera sees, at view depths of at least `nearest` and at most `farthest`, metres, and what
+// lies in the pyramid about a spot's cone, at a depth of at least `least`.
+void cutToView(ConvexBody& body, const glsl::CameraView& camera, double nearest = 0.0, double farthest = 1e30);
+void cutToCone(ConvexBody& body, const LightModel& light, const AxisFrame& frame, double least);
 
 }  // namespace gnomon

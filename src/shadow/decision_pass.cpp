@@ -76,9 +76,7 @@ size_t DecisionPass::mostOf(std::span<const BiasMethod* const> biases) const {
   return count;
 }
 
-const gpu::ComputeProgram& DecisionPass::program(const VariantKey& key) {
-  for (const auto& variant : variants_)
-    if (variant->key == key) return variant->program;
+gpu::ComputeProgram DecisionPass::makeProgram(const VariantKey& key) const {
   std::vector<gpu::Specialization> constants = {{.id = 2, .value = key.mapKind},
                                                 {.id = 3, .value = key.sliceCount},
                                                 {.id = 4, .value = key.instanced},
@@ -86,9 +84,7 @@ const gpu::ComputeProgram& DecisionPass::program(const VariantKey& key) {
                                                 {.id = 13, .value = static_cast<int32_t>(key.methods.size())}};
   for (size_t i = 0; i < key.methods.size(); ++i)
     constants.push_back({.id = kFirstMethodConstant + static_cast<uint32_t>(i), .value = key.methods[i]});
-  gpu::ComputeProgram made = createLookupProgram(device_, shaderWith(kDecisionShader, key.user), key.user, constants);
-  variants_.push_back(std::make_unique<Variant>(Variant{key, std::move(made)}));
-  return variants_.back()->program;
+  return createLookupProgram(device_, shaderWith(kDecisionShader, key.user), key.user, constants);
 }
 
 void DecisionPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,
@@ -105,7 +101,7 @@ void DecisionPass::record(gpu::Commands& commands, const SceneBuffers& scene, co
                  .methods = {},
                  .user = userOf(biases)};
   for (const BiasMethod* bias : biases) key.methods.push_back(bias->id);
-  const gpu::ComputeProgram& program = this->program(key);
+  const gpu::ComputeProgram& program = variants_.get(key, [&](const VariantKey& k) { return makeProgram(k); });
   const VkDeviceSize bytes = Decisions::planeCount(biases) * pixelCount_ * sizeof(uint32_t);
   if (planes_.size() < bytes) planes_ = gpu::Buffer(device_, {.name = "decisions", .size = bytes});
   std::vector<glsl::BiasParams> all(params.begin(), params.end());

@@ -3,6 +3,7 @@
 // texel and ray, and most of a look-up's time is that. Its bits are those of VisibilityPass, which decides one at a
 // time and is what a bias's time is taken of.
 
+#include "gpu/variants.h"
 #include "shadow/visibility_pass.h"
 
 namespace gnomon {
@@ -51,18 +52,14 @@ class DecisionPass {
     const UserBias* user;
     bool operator==(const VariantKey&) const = default;
   };
-  struct Variant {
-    VariantKey key;
-    gpu::ComputeProgram program;
-  };
-  const gpu::ComputeProgram& program(const VariantKey& key);
+  gpu::ComputeProgram makeProgram(const VariantKey& key) const;
 
   const gpu::Device& device_;
   size_t pixelCount_;
   glm::uvec3 groupCount_;
   gpu::Buffer uniforms_, params_, planes_;
   gpu::Image noIds_;  // bound where a map has none
-  std::vector<std::unique_ptr<Variant>> variants_;
+  gpu::Variants<VariantKey, gpu::ComputeProgram> variants_;
 };
 
 }  // namespace gnomon

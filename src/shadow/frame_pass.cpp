@@ -86,9 +86,7 @@ void FramePass::createTargets() {
                                           VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
 }
 
-const gpu::GraphicsProgram& FramePass::program(const Key& key) {
-  for (const auto& variant : variants_)
-    if (variant->key == key) return variant->program;
+gpu::GraphicsProgram FramePass::makeProgram(const Key& key) const {
   const gpu::GraphicsDesc desc{.name = "draw frame",
                                .vertex = {"shadow/pull_frame_triangle.vert.glsl", {}},
                                .fragment = shaderWith("shadow/shade_frame.frag.glsl", key.user),
@@ -106,12 +104,11 @@ const gpu::GraphicsProgram& FramePass::program(const Key& key) {
                                .depthCompare = VK_COMPARE_OP_EQUAL,
                                .depthWrite = false};
   try {
-    variants_.push_back(std::make_unique<Variant>(Variant{key, gpu::GraphicsProgram(device_, desc)}));
+    return gpu::GraphicsProgram(device_, desc);
   } catch (const WorldError& error) {
     if (key.user == nullptr) throw;
     throw WorldError(inUsersWords(error.what(), *key.user));
   }
-  return variants_.back()->program;
 }
 
 void FramePass::recordDepth(gpu::Commands& commands, const SceneBuffers& scene, const glsl::CameraView& camera) const {
@@ -165,8 +162,9 @@ void FramePass::record(gpu::Commands& commands, const SceneBuffers& scene, const
                            draw.material.texture, draw.material.alphaCutoff,
                            filter.params,         2 * draw.firstIndex + draw.indexCount - 1};
       const gpu::GraphicsProgram& wanted =
-          program({method.id, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0, method.channels, filter.id,
-                   filter.tapCount, draw.material.texture >= 0 ? 1 : 0, group->masked ? 1 : 0, method.user});
+          variants_.get({method.id, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0, method.channels, filter.id,
+                         filter.tapCount, draw.material.texture >= 0 ? 1 : 0, group->masked ? 1 : 0, method.user},
+                        [&](const Key& key) { return makeProgram(key); });
       if (bound != &wanted) {
         commands.bind(wanted, gpu::asPush(push), bindings);
         group->setCulling(commands);

@@ -7,6 +7,7 @@
 // A triangle's plane is found once for all its pixels, and what a draw has in common comes as push constants: on
 // lavapipe half of those two passes' time goes into reading the same tables once a pixel.
 
+#include "gpu/variants.h"
 #include "shadow/bias.h"
 #include "shadow/filter.h"
 #include "shadow/map_image.h"
@@ -35,11 +36,7 @@ class FramePass {
     const UserBias* user;
     bool operator==(const Key&) const = default;
   };
-  struct Variant {
-    Key key;
-    gpu::GraphicsProgram program;
-  };
-  const gpu::GraphicsProgram& program(const Key& key);
+  gpu::GraphicsProgram makeProgram(const Key& key) const;
   void createTargets();
   void recordDepth(gpu::Commands& commands, const SceneBuffers& scene, const glsl::CameraView& camera) const;
 
@@ -48,7 +45,7 @@ class FramePass {
   gpu::Image radiance_, depth_;  // made at the first use
   gpu::Buffer shadeUniforms_, frameUniforms_;
   gpu::GraphicsProgram opaqueDepth_, maskedDepth_;
-  std::vector<std::unique_ptr<Variant>> variants_;
+  gpu::Variants<Key, gpu::GraphicsProgram> variants_;
 };
 
 }  // namespace gnomon

@@ -149,10 +149,8 @@ gpu::Binding VisibilityPass::storage(const gpu::Image* image) const {
   return {glsl::kBindVisibility, visibility_};
 }
 
-const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
-  for (const auto& variant : variants_)
-    if (variant->key == key) return variant->program;
-  gpu::ComputeProgram made = createLookupProgram(
+gpu::ComputeProgram VisibilityPass::makeProgram(const VariantKey& key) const {
+  return createLookupProgram(
       device_, storingAs(ReceiverPicture::shader(shaderWith(kVisibilityShader, key.user), key.receivers), key.stored),
       key.user,
       {{.id = 0, .value = key.method},
@@ -167,8 +165,6 @@ const gpu::ComputeProgram& VisibilityPass::program(const VariantKey& key) {
        {.id = 10, .value = key.stage},
        {.id = 11, .value = key.witnessReach},
        ReceiverPicture::constant(key.receivers)});
-  variants_.push_back(std::make_unique<Variant>(Variant{key, std::move(made)}));
-  return variants_.back()->program;
 }
 
 bool VisibilityPass::inStages(const ShadowLookup& lookup) {
@@ -179,9 +175,11 @@ const gpu::ComputeProgram& VisibilityPass::programOf(const SceneBuffers& scene, 
                                                      const MapImage& map, const ShadowLookup& lookup, int stage) {
   const BiasMethod& method = lookup.bias;
   const int reach = method.id == glsl::kBiasWitness ? witnessReach_ : 2;
-  return program({method.id, lookup.diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0,
-                  method.channels, lookup.filter.id, lookup.filter.tapCount, scene.masked ? 1 : 0, stage, reach,
-                  method.user, receivers, lookup.into != nullptr ? lookup.into->desc().format : VK_FORMAT_UNDEFINED});
+  return variants_.get(
+      {method.id, lookup.diagnose ? 1 : 0, map.kind(), map.sliceCount(), scene.instanced ? 1 : 0, method.channels,
+       lookup.filter.id, lookup.filter.tapCount, scene.masked ? 1 : 0, stage, reach, method.user, receivers,
+       lookup.into != nullptr ? lookup.into->desc().format : VK_FORMAT_UNDEFINED},
+      [&](const VariantKey& key) { return makeProgram(key); });
 }
 
 void VisibilityPass::prepare(const SceneBuffers& scene, ReceiverKind receivers, const MapImage& map,

@@ -2,6 +2,7 @@
 // The visibility pass (each pixel's visibility by a map, a bias and a filter) and the radiance pass (the shaded
 // picture).
 
+#include "gpu/variants.h"
 #include "scene/receiver_picture.h"
 #include "shadow/bias.h"
 #include "shadow/filter.h"
@@ -74,11 +75,7 @@ class VisibilityPass {
     VkFormat stored;  // VK_FORMAT_UNDEFINED: in the buffer
     bool operator==(const VariantKey&) const = default;
   };
-  struct Variant {
-    VariantKey key;
-    gpu::ComputeProgram program;
-  };
-  const gpu::ComputeProgram& program(const VariantKey& key);
+  gpu::ComputeProgram makeProgram(const VariantKey& key) const;
   const gpu::ComputeProgram& programOf(const SceneBuffers& scene, ReceiverKind receivers, const MapImage& map,
                                        const ShadowLookup& lookup, int stage);
   static bool inStages(const ShadowLookup& lookup);
@@ -89,7 +86,7 @@ class VisibilityPass {
   int witnessReach_ = 2;                  // of the uniforms
   gpu::Buffer walkers_, walkDispatches_;  // pixels that another dispatch shades (glsl::kStageLists)
   gpu::Image noIds_;                      // bound where a map has none
-  std::vector<std::unique_ptr<Variant>> variants_;
+  gpu::Variants<VariantKey, gpu::ComputeProgram> variants_;
   gpu::ComputePrograms programs_;
 };
 

@@ -1,4 +1,4 @@
-// Makes on a device of its own what one component offers; USES_shadow, USES_omni, USES_vsv or USES_media says which.
+// Makes on a device of its own what one component offers; USES_shadow, USES_planar and so on says which.
 #if defined(USES_media)
 #include "vsv/media/embedded_fog.h"
 #define USES_vsv
@@ -10,6 +10,9 @@
 #if defined(USES_omni)
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
+#endif
+#if defined(USES_planar)
+#include "planar/planar_map.h"
 #endif
 #include "base/version.h"
 #include "gpu/features.h"
@@ -40,6 +43,9 @@ void makeAll(const gpu::Device& device) {
                                       .sceneBoundsW = {glm::vec3(-1.0f), glm::vec3(1.0f)}});
 #if defined(USES_omni)
   const FittedMap fit = makeCubeMap(light.positionW, CubeDepth::Hyperbolic, 0.1, 10.0, 64, 1.0f);
+#elif defined(USES_planar)
+  const FittedMap fit = makeSpotMap({.type = LightType::Spot, .directionW = {0, 0, -1}, .outerConeRad = 0.5},
+                                    {.boundsW = {glm::vec3(-1.0f), glm::vec3(1.0f)}, .side = 64});
 #else
   FittedMap fit;  // one that looks along -z
   fit.frame = {.originW = {}, .rightW = {1, 0, 0}, .upW = {0, 1, 0}, .backW = {0, 0, 1}};
