@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <dlfcn.h>
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
