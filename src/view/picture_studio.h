@@ -1,6 +1,6 @@
 #pragma once
-// Draws pictures of states on one device, one after another, and keeps of each what the next can use: of a scene what is
-// on the device, of a size its passes, of a light its map. Of the worker's thread alone.
+// Draws pictures of states on one device, one after another, and keeps of each what the next can use: of a scene what
+// is on the device, of a size its passes, of a light its map. Of the worker's thread alone.
 
 #include "view/moving_detail.h"
 #include "view/picture_worker.h"
