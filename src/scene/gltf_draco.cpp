@@ -4,8 +4,8 @@
 #include "base/message.h"
 #include "scene/draco_codec.h"
 
-#include <algorithm>
 #include <dlfcn.h>
+#include <algorithm>
 
 #include <algorithm>
 
