@@ -5,7 +5,6 @@
 #include "scene/draco_codec.h"
 
 #include <dlfcn.h>
-#include <algorithm>
 
 #include <algorithm>
 
