@@ -77,8 +77,6 @@ void ShadowVolume::prepare(const MapRenderer& renderer, const SceneBuffers& scen
 }
 
 void ShadowVolume::recordFit(gpu::Commands& commands, const FittedMap& columns) {
-  GNOMON_CHECK_EQ(columns.map.epipolar.alphaCount, grid().alphaCount);
-  GNOMON_CHECK_EQ(columns.occluderSource != nullptr, fitted().occluderSource != nullptr);
   Occluders::recordFit(commands, columns);
   source_.recordFit(commands, columns.occluderSource ? *columns.occluderSource : columns);
 }

@@ -49,6 +49,7 @@ struct FogFlags {
   double ambient = 0.0;
   std::string density, densityAt;
   std::optional<double> densityScale;
+  double densityTurn = 0.0;
   std::optional<int> repeats;
   int frames = 0;
   std::optional<int> firstFrame;
@@ -143,7 +144,8 @@ bool isPicture(const std::string& out) {
 }
 
 DensityPlacement placementOf(const FogFlags& flags, const glm::dvec3& originW) {
-  DensityPlacement placement{.scale = flags.densityScale.value_or(1.0), .originW = originW};
+  DensityPlacement placement{
+      .scale = flags.densityScale.value_or(1.0), .turnDegrees = flags.densityTurn, .originW = originW};
   if (!(placement.scale >= 1e-6 && placement.scale <= 1e6))
     throw UsageError(fmt::format("--density-scale {}: give a scale factor, 1e-6..1e6", placement.scale));
   if (!flags.densityAt.empty()) placement.centerW = parsePlace("--density-at", flags.densityAt);
@@ -157,8 +159,8 @@ bool isSequence(const FogFlags& flags) {
 // Of a sequence the first frame's.
 std::shared_ptr<const DensityGrid> densityOf(const FogFlags& flags, const glm::dvec3& originW) {
   if (flags.density.empty()) {
-    if (!flags.densityAt.empty() || flags.densityScale)
-      throw UsageError("--density-at and --density-scale need a --density");
+    if (!flags.densityAt.empty() || flags.densityScale || flags.densityTurn != 0.0)
+      throw UsageError("--density-at, --density-scale and --density-turn need a --density");
     return nullptr;
   }
   const DensityPlacement placement = placementOf(flags, originW);
@@ -357,6 +359,8 @@ void addMediumFlags(CLI::App& verb, FogFlags& flags) {
   verb.add_option("--density-at", flags.densityAt,
                   "x,y,z: new centre of the density, metres; default: where the file places it");
   verb.add_option("--density-scale", flags.densityScale, "scale factor of the density's size; default: 1");
+  verb.add_option("--density-turn", flags.densityTurn,
+                  "degrees about the density's centre and the y axis, counter-clockwise seen from above; default: 0");
   verb.add_option("--ambient", flags.ambient,
                   "ambient light: radiance of a white surface without any other light, cd/m^2")
       ->capture_default_str();

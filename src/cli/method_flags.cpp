@@ -86,12 +86,7 @@ CompareOptions compareOptions(const MethodFlags& flags) {
 
 void chooseUsualMap(const MethodFlags& flags, const Session& session, CompareOptions& options) {
   if (flags.map.maps.empty()) {
-    const std::vector<Light> lights = lightsAsked(session.setup(), session.tracer());
-    LightType type = lights.empty() ? LightType::Point : lights.front().type;
-    // Who says where it shines, or how wide, wants a spot.
-    const bool hasCone = !session.setup().direction.empty() || session.setup().coneDegrees;
-    if (type == LightType::Point && hasCone) type = LightType::Spot;
-    options.maps = {&usualMapFor(type, options.mapOptions)};
+    options.maps = {&usualMapOf(session.setup(), session.tracer(), options.mapOptions)};
     mapSideOf(options, *options.maps.front());
   }
   tellUnusedFlags(*flags.verb, options);

@@ -6,17 +6,22 @@ namespace gnomon {
 
 namespace {
 
-std::string typed;
+std::vector<std::string> words;
 
 }  // namespace
 
 void setCommandLine(int argc, char** argv) {
-  typed = "gnomon";
-  for (int i = 1; i < argc; ++i) typed += " " + shellWord(argv[i]);
+  words.assign(argv, argv + argc);
 }
 
 std::string commandLine() {
-  return typed;
+  std::string line = "gnomon";
+  for (size_t i = 1; i < words.size(); ++i) line += " " + shellWord(words[i]);
+  return line;
+}
+
+const std::vector<std::string>& typedWords() {
+  return words;
 }
 
 }  // namespace gnomon

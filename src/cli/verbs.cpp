@@ -10,6 +10,7 @@ Verb exportVerb();
 Verb reportVerb();
 Verb fogVerb();
 Verb vsvVerb();
+Verb viewVerb();
 Verb sceneVerb();
 Verb benchVerb();
 Verb reproduceVerb();
@@ -18,9 +19,9 @@ Verb completionVerb();
 Verb manVerb();
 
 const std::vector<Verb>& verbs() {
-  static const std::vector<Verb> all = {compareVerb(), sweepVerb(),      renderVerb(), exportVerb(), reportVerb(),
-                                        fogVerb(),     vsvVerb(),        sceneVerb(),  benchVerb(),  reproduceVerb(),
-                                        infoVerb(),    completionVerb(), manVerb()};
+  static const std::vector<Verb> all = {compareVerb(),   sweepVerb(), renderVerb(),     viewVerb(),  exportVerb(),
+                                        reportVerb(),    fogVerb(),   vsvVerb(),        sceneVerb(), benchVerb(),
+                                        reproduceVerb(), infoVerb(),  completionVerb(), manVerb()};
   return all;
 }
 

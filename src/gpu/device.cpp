@@ -62,17 +62,18 @@ bool hasDebugUtils() {
 }
 
 // `next` is what validation needs; null without it.
-VkResult createInstance(bool validation, const void* next, Owned<VkInstance, vkDestroyInstance>& instance) {
+VkResult createInstance(bool validation, const void* next, std::vector<const char*> extensions,
+                        Owned<VkInstance, vkDestroyInstance>& instance) {
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.pApplicationName = "gnomon";
   application.apiVersion = VK_API_VERSION_1_3;
-  const char* debugUtils = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  if (hasDebugUtils()) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, next};
   info.pApplicationInfo = &application;
   info.enabledLayerCount = validation ? 1 : 0;
   info.ppEnabledLayerNames = &kValidationLayer;
-  info.enabledExtensionCount = hasDebugUtils() ? 1 : 0;
-  info.ppEnabledExtensionNames = &debugUtils;
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   VkInstance handle = VK_NULL_HANDLE;
   const VkResult result = vkCreateInstance(&info, nullptr, &handle);
   instance = Owned<VkInstance, vkDestroyInstance>(handle);
@@ -217,7 +218,7 @@ struct DeviceBuilder {
     return info;
   }
 
-  void makeInstance(bool validation) {
+  void makeInstance(bool validation, const std::vector<const char*>& extensions) {
     if (validation && !hasValidationLayer())
       throw WorldError(
           fmt::format("validation was asked for, but {} is not installed; apt-get install "
@@ -230,7 +231,7 @@ struct DeviceBuilder {
     // In the instance's own chain the messenger also hears vkCreateInstance and vkDestroyInstance.
     VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo();
     messenger.pNext = &features;
-    const VkResult result = createInstance(validation, validation ? &messenger : nullptr, device.instance_);
+    const VkResult result = createInstance(validation, validation ? &messenger : nullptr, extensions, device.instance_);
     if (result != VK_SUCCESS) throwVulkanError(result, "vkCreateInstance");
     if (!validation) return;
     messenger.pNext = nullptr;
@@ -240,8 +241,12 @@ struct DeviceBuilder {
     GNOMON_VK_CHECK(create(device.instance_.get(), &messenger, nullptr, &device.messenger_));
   }
 
-  void makeDevice(const std::string& name) {
+  void makeDevice(const std::string& name, const std::vector<const char*>& besides) {
     const Candidate chosen = chooseDevice(device.instance_.get(), name);
+    for (const char* extension : besides)
+      if (!chosen.capabilities.has(extension))
+        throw WorldError(fmt::format("device '{}' lacks {}, so it cannot show a window; choose another with --device",
+                                     describe(chosen.device).name, extension));
     device.physical_ = chosen.device;
     device.info_ = describe(chosen.device);
     device.queueFamily_ = chooseQueueFamily(chosen.device, device.info_.timestampValidBits);
@@ -255,7 +260,8 @@ struct DeviceBuilder {
     queue.queueFamilyIndex = device.queueFamily_;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    const std::vector<const char*> extensions = enabledExtensions(chosen.capabilities);
+    std::vector<const char*> extensions = enabledExtensions(chosen.capabilities);
+    extensions.insert(extensions.end(), besides.begin(), besides.end());
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
@@ -291,8 +297,8 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options) {
   device->messages_ = std::make_unique<Messages>();
   device->messages_->sink = options.messageSink;
   DeviceBuilder builder{*device};
-  builder.makeInstance(options.validation || environment("GNOMON_VALIDATION") == "1");
-  builder.makeDevice(options.name.empty() ? environment("GNOMON_DEVICE") : options.name);
+  builder.makeInstance(options.validation || environment("GNOMON_VALIDATION") == "1", options.instanceExtensions);
+  builder.makeDevice(options.name.empty() ? environment("GNOMON_DEVICE") : options.name, options.deviceExtensions);
   device->info_.mapsDeviceMemory = !options.hideDeviceMemory;
   builder.finish();
   return device;
@@ -375,7 +381,7 @@ void Device::nameObject(VkObjectType type, uint64_t object, const char* name) co
 
 std::vector<DeviceInfo> listDevices() {
   Owned<VkInstance, vkDestroyInstance> instance;
-  if (createInstance(false, nullptr, instance) != VK_SUCCESS) return {};
+  if (createInstance(false, nullptr, {}, instance) != VK_SUCCESS) return {};
   std::vector<DeviceInfo> devices;
   for (VkPhysicalDevice device : physicalDevices(instance.get())) devices.push_back(describe(device));
   return devices;

@@ -20,6 +20,9 @@ struct DeviceOptions {
   std::vector<std::string>* messageSink = nullptr;
   // Hides from the CPU what a discrete GPU would hide, so that lavapipe takes the staging path too: for tests.
   bool hideDeviceMemory = false;
+  // Of whoever shows pictures on a screen: what a window system needs beside Gnomon's own. A device without the latter
+  // is refused by name.
+  std::vector<const char*> instanceExtensions = {}, deviceExtensions = {};
 };
 
 struct DeviceInfo {
@@ -77,6 +80,7 @@ class Device {
 
   const DeviceInfo& info() const { return info_; }
   VkDevice handle() const { return handle_; }
+  VkInstance instance() const { return instance_.get(); }  // null of a borrowed one
   VkPhysicalDevice physical() const { return physical_; }
   VkQueue queue() const { return queue_; }
   uint32_t queueFamily() const { return queueFamily_; }

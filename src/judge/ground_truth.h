@@ -5,6 +5,7 @@
 #include "shadow/parameterization.h"
 #include "truth/visibility.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,8 @@ class GroundTruths {
  public:
   std::shared_ptr<const GroundTruth> of(const SceneView& view, const Light& source, const LightModel& light);
   size_t tracedCount() const { return tracedCount_; }
+  // All but the newest are forgotten: of a light that moves none comes again.
+  void keepNewest(size_t count) { kept_.resize(std::min(count, kept_.size())); }
 
  private:
   std::vector<std::shared_ptr<const GroundTruth>> kept_;  // the last ones first

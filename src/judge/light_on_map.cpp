@@ -94,6 +94,18 @@ LightOnMap::LightOnMap(const LightOnMap& other, MapSetup setup)
   truth_ = other.truth_;
 }
 
+void LightOnMap::takeRoomOf(LightOnMap& other) {
+  if (&map_ != &other.map_) return;
+  room_ = std::move(other.occluders_);
+  room_.merge(other.room_);
+}
+
+void LightOnMap::takeMapOf(LightOnMap& other) {
+  GNOMON_CHECK(&map_ == &other.map_ && light_ == other.light_);
+  fit_ = std::exchange(other.fit_, std::nullopt);
+  occluders_ = std::move(other.occluders_);
+}
+
 const GroundTruth& LightOnMap::groundTruth() const {
   if (!truth_) truth_ = view_.groundTruths().of(view_, source_, light_);
   return *truth_;
@@ -125,7 +137,15 @@ double LightOnMap::fitMs() const {
 const Occluders& LightOnMap::occluders(ChannelSet channels) {
   const auto found = occluders_.find(channels);
   if (found != occluders_.end()) return *found->second;
-  occluders_.emplace(channels, map_.createOccluders(view_.device(), fitted(), channels));
+  const auto room = room_.find(channels);
+  if (room != room_.end() && room->second->hasFormOf(fitted())) {
+    gpu::Commands commands(view_.device(), "map's numbers");
+    room->second->recordFit(commands, fitted());
+    commands.submitAndWait();
+    occluders_.insert(room_.extract(room));
+  } else {
+    occluders_.emplace(channels, map_.createOccluders(view_.device(), fitted(), channels));
+  }
   redraw(channels);
   return *occluders_.at(channels);
 }

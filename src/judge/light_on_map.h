@@ -83,6 +83,11 @@ class LightOnMap {
   // The same light, ground truth and parameterization, mapped otherwise.
   LightOnMap(const LightOnMap& other, MapSetup setup);
 
+  // What another map of the same parameterization took of the device: its room, to be drawn into anew where this one
+  // has the same form, or the map as it is, fit and depths, of a light that is taken alike. The other is then without.
+  void takeRoomOf(LightOnMap& other);
+  void takeMapOf(LightOnMap& other);
+
   const SceneView& view() const { return view_; }
   ShadowPasses& passes() const { return passes_; }
   const Parameterization& parameterization() const { return map_; }
@@ -155,7 +160,7 @@ class LightOnMap {
   const LightModel light_;
   mutable std::shared_ptr<const GroundTruth> truth_;
   mutable std::optional<Fit> fit_;
-  std::map<ChannelSet, std::unique_ptr<Occluders>> occluders_;
+  std::map<ChannelSet, std::unique_ptr<Occluders>> occluders_, room_;
   std::vector<Method> expected_;
   std::map<ChannelSet, Decided> decided_;  // the last ones
 };

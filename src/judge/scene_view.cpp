@@ -27,10 +27,8 @@ SceneView::SceneView(std::shared_ptr<const gpu::Device> device, std::shared_ptr<
       buffers_(std::move(buffers)),
       camera_(camera),
       view_(cameraView(camera, width, height)),
-      gbuffer_(std::make_unique<GBuffer>(*device_, width, height)),
-      groundTruths_(std::make_unique<GroundTruths>()) {
-  timeGBuffer();
-  ids_ = downloadPrimitiveIds(*device_, *gbuffer_, *buffers_);
+      gbuffer_(std::make_unique<GBuffer>(*device_, width, height)) {
+  see();
 }
 
 SceneView::SceneView(std::shared_ptr<const gpu::Device> device, std::shared_ptr<const TracedScene> traced,
@@ -45,10 +43,26 @@ SceneView::SceneView(std::shared_ptr<const gpu::Device> device, std::shared_ptr<
     : SceneView(std::move(device), traced, firstCamera(traced->scene), width, height) {}
 
 SceneView::SceneView(const SceneView& other, const Camera& camera)
-    : SceneView(other.device_, other.traced_, other.buffers_, camera, other.view_.width, other.view_.height) {}
+    : SceneView(other, camera, other.view_.width, other.view_.height) {}
+
+SceneView::SceneView(const SceneView& other, const Camera& camera, int width, int height)
+    : SceneView(other.device_, other.traced_, other.buffers_, camera, width, height) {}
 
 SceneView::SceneView(SceneView&&) noexcept = default;
 SceneView::~SceneView() = default;
+
+void SceneView::see() {
+  groundTruths_ = std::make_unique<GroundTruths>();
+  surfaces_.reset();
+  timeGBuffer();
+  ids_ = downloadPrimitiveIds(*device_, *gbuffer_, *buffers_);
+}
+
+void SceneView::lookFrom(const Camera& camera) {
+  camera_ = camera;
+  view_ = cameraView(camera, view_.width, view_.height);
+  see();
+}
 
 const SurfaceSamples& SceneView::surfaces() const {
   if (!surfaces_) surfaces_ = computeSurfaces(tracer(), view_, ids_);

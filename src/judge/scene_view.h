@@ -34,6 +34,8 @@ class SceneView {
             int height);
   // The same scene on the same device, seen by another camera.
   SceneView(const SceneView& other, const Camera& camera);
+  // And in another size, pixels.
+  SceneView(const SceneView& other, const Camera& camera, int width, int height);
   SceneView(SceneView&&) noexcept;
   ~SceneView();
 
@@ -51,12 +53,18 @@ class SceneView {
   const SurfaceSamples& surfaces() const;
   GroundTruths& groundTruths() const { return *groundTruths_; }  // ground_truth.h
 
+  // Another camera in the same size, with what is on the device. Whatever was made for the view before, a LightOnMap,
+  // is of it no longer.
+  void lookFrom(const Camera& camera);
+
   // Wall clock of drawing the G-buffer once more, milliseconds.
   double timeGBuffer() const;
 
  private:
   SceneView(std::shared_ptr<const gpu::Device> device, std::shared_ptr<const TracedScene> traced,
             std::shared_ptr<const SceneBuffers> buffers, const Camera& camera, int width, int height);
+
+  void see();
 
   std::shared_ptr<const TracedScene> traced_;
   std::shared_ptr<const gpu::Device> device_;

@@ -4,8 +4,9 @@
 #include "base/message.h"
 #include "scene/draco_codec.h"
 
-#include <algorithm>
 #include <dlfcn.h>
+
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>

@@ -8,6 +8,19 @@
 
 namespace gnomon {
 
+namespace {
+
+bool haveSameForm(const FittedMap& a, const FittedMap& b) {
+  const bool sourcesAgree = a.occluderSource == nullptr
+                                ? b.occluderSource == nullptr
+                                : b.occluderSource != nullptr && haveSameForm(*a.occluderSource, *b.occluderSource);
+  return sourcesAgree && a.map.kind == b.map.kind && a.map.sliceCount == b.map.sliceCount &&
+         a.map.width == b.map.width && a.map.height == b.map.height &&
+         a.map.epipolar.alphaCount == b.map.epipolar.alphaCount && a.shaders == b.shaders;
+}
+
+}  // namespace
+
 CullMode parseCullMode(const std::string& name) {
   if (name == "solids") return CullMode::Solids;
   if (name == "none") return CullMode::None;
@@ -18,12 +31,12 @@ const char* cullModeName(CullMode mode) {
   return mode == CullMode::Solids ? "solids" : "none";
 }
 
+bool Occluders::hasFormOf(const FittedMap& fitted) const {
+  return haveSameForm(fitted, fitted_);
+}
+
 void Occluders::recordFit(gpu::Commands& commands, const FittedMap& fitted) {
-  GNOMON_CHECK_EQ(fitted.map.kind, fitted_.map.kind);
-  GNOMON_CHECK_EQ(fitted.map.sliceCount, fitted_.map.sliceCount);
-  GNOMON_CHECK_EQ(fitted.map.width, fitted_.map.width);
-  GNOMON_CHECK_EQ(fitted.map.height, fitted_.map.height);
-  GNOMON_CHECK(fitted.shaders == fitted_.shaders);
+  GNOMON_CHECK(hasFormOf(fitted));
   fitted_ = fitted;
   const glsl::MapUniforms uniforms{.lightFrame = fitted.frame, .shadowMap = fitted.map};
   commands.update(uniforms_, gpu::asPush(uniforms));

@@ -52,7 +52,9 @@ class Occluders {
   int kind() const { return fitted_.map.kind; }              // glsl::kMap*
   const gpu::Buffer& uniforms() const { return uniforms_; }  // glsl::MapUniforms
 
-  // Another fit of the same map (kind, slices, size, shaders), for the commands that follow: the light has moved.
+  // Whether recordFit() takes it: kind, slices, size and shaders are these.
+  bool hasFormOf(const FittedMap& fitted) const;
+  // Another fit of the same form, for the commands that follow: the light has moved.
   virtual void recordFit(gpu::Commands& commands, const FittedMap& fitted);
 
   // Draws them once more. `light` decides which solids may be culled (MapRenderer::record). A barrier must follow.

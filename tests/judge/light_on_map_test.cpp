@@ -54,6 +54,70 @@ TEST_F(LightOnMapTest, ASpotKeepsItsDirectionAndItsCone) {
   EXPECT_GT(lit.receivers().scored, 20u);
 }
 
+// A light that has moved is drawn into the room of the one before, and a camera into its view's: the bits are those of
+// what is made for the purpose.
+TEST_F(LightOnMapTest, RoomIsUsedAgain) {
+  SceneView seen(test::lent(device()), openScene("atrium"), 64, 64);
+  ShadowPasses passes(seen);
+  for (const Parameterization* map : everyMap()) {
+    const Light source = *firstLightFor(seen.scene(), *map);
+    Light moved = source;
+    moved.positionW += glm::vec3(0.3f, -0.2f, 0.1f);
+    const Method method = atDefaults(findBias(map->supportsBias(findBias("witness")) ? "witness" : "none"), seen);
+    LightOnMap before(seen, passes, *map, source, smallSetup());
+    before.occluders(method.bias->channels);
+    const Occluders* room = &before.occluders(method.bias->channels);
+    LightOnMap after(seen, passes, *map, moved, smallSetup()), anew(seen, passes, *map, moved, smallSetup());
+    after.takeRoomOf(before);
+    EXPECT_EQ(after.picture(method).values, anew.picture(method).values) << map->name();
+    EXPECT_EQ(after.judge(method).verdicts, anew.judge(method).verdicts) << map->name();
+    EXPECT_EQ(&after.occluders(method.bias->channels), room) << map->name();
+    // Of another form there is other room.
+    MapSetup larger = smallSetup();
+    larger.side = 128;
+    larger.options = {kVolumeSize({.alpha = 128, .theta = 64, .phi = 128})};
+    LightOnMap other(seen, passes, *map, moved, larger), otherAnew(seen, passes, *map, moved, larger);
+    other.takeRoomOf(after);
+    EXPECT_EQ(other.picture(method).values, otherAnew.picture(method).values) << map->name();
+  }
+}
+
+TEST_F(LightOnMapTest, AViewLooksFromElsewhere) {
+  SceneView seen(test::lent(device()), openScene("atrium"), 64, 64);
+  Camera camera = seen.camera();
+  camera.worldFromEye[3] += glm::vec4(0.5f, 0.25f, -0.5f, 0.0f);
+  const SceneView anew(seen, camera);
+  seen.surfaces();
+  seen.lookFrom(camera);
+  ShadowPasses passes(seen);
+  const auto ofView = [&](const SceneView& view) {
+    LightOnMap lit(view, passes, cubeParameterization(), smallSetup());
+    return lit.judge(atDefaults(findBias("constant"), view));
+  };
+  const LabelledResult one = ofView(seen), two = ofView(anew);
+  EXPECT_EQ(one.verdicts, two.verdicts);
+  EXPECT_EQ(one.labels.labels, two.labels.labels);
+}
+
+// A cube that was fitted to the whole scene holds for every camera.
+TEST_F(LightOnMapTest, AMapIsTakenAsItIs) {
+  SceneView seen(test::lent(device()), openScene("atrium"), 64, 64);
+  ShadowPasses passes(seen);
+  MapSetup setup = smallSetup();
+  setup.receiversW.emplace();
+  const Method method = atDefaults(findBias("constant"), seen);
+  auto before = std::make_unique<LightOnMap>(seen, passes, cubeParameterization(), setup);
+  const Occluders* map = &before->occluders();
+  Camera camera = seen.camera();
+  camera.worldFromEye[3] += glm::vec4(0.5f, 0.25f, -0.5f, 0.0f);
+  seen.lookFrom(camera);
+  LightOnMap after(seen, passes, cubeParameterization(), setup), anew(seen, passes, cubeParameterization(), setup);
+  after.takeMapOf(*before);
+  before.reset();
+  EXPECT_EQ(&after.occluders(), map);
+  EXPECT_EQ(after.judge(method).verdicts, anew.judge(method).verdicts);
+}
+
 // What depends on the camera alone is found once for all lights, and a ground truth once for all maps that take a light
 // alike: a spot map of a point light traces one to aim by, which is the cube's, and one in its cone.
 TEST_F(LightOnMapTest, MapsAndLightsShareWhatIsTheSame) {

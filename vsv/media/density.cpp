@@ -31,7 +31,11 @@ DensityGrid::DensityGrid(const std::string& fileAndGrid, const DensityPlacement&
   impl_->lowerI = file.facts.lowerI - 1.0;
   impl_->upperI = file.facts.upperI + 1.0;
   impl_->centerI = 0.5 * (impl_->lowerI + impl_->upperI);
+  const double turn = glm::radians(placement.turnDegrees);
+  const glm::dmat3 turned(glm::dvec3(std::cos(turn), 0.0, -std::sin(turn)), glm::dvec3(0.0, 1.0, 0.0),
+                          glm::dvec3(std::sin(turn), 0.0, std::cos(turn)));
   impl_->worldFromIndex = placement.scale * file.facts.worldFromIndex;
+  if (placement.turnDegrees != 0.0) impl_->worldFromIndex = turned * impl_->worldFromIndex;
   if (const double det = glm::determinant(impl_->worldFromIndex); !(std::abs(det) > 0.0) || !std::isfinite(det))
     throw fileError(file.path, fmt::format("its grid '{}' has voxels of zero volume", gridName_),
                     "repair its transform");

@@ -20,6 +20,7 @@ namespace gnomon {
 // What is done with the file's own place, in this order.
 struct DensityPlacement {
   double scale = 1.0;                 // of its size, about the centre of its bounds
+  double turnDegrees = 0.0;           // about that centre and the y axis, counter-clockwise seen from above
   std::optional<glm::dvec3> centerW;  // where that centre goes, metres; absent: where it is
   glm::dvec3 originW{0.0};            // Scene::originW: both are in the scene file's coordinates
 };

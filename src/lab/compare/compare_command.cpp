@@ -96,6 +96,17 @@ std::string compareCommand(const SetupOptions& setup, const CompareOptions& opti
   return words.line();
 }
 
+std::string renderCommand(const SetupOptions& setup, const CompareOptions& options, const std::string& show,
+                          const std::string& file) {
+  Words words("gnomon render");
+  for (const std::string& word : setupWords(setup)) words.word(word);
+  addMaps(words, options);
+  addBiases(words, options);
+  if (show != "beauty") words.flag("--show", show);
+  words.flag("-o", file);
+  return words.line();
+}
+
 std::string rowCommand(const SetupOptions& setup, const CompareOptions& options, const Row& row) {
   CompareOptions own = options;
   own.maps = only(options.maps, row.map, [](const Parameterization* map) { return map->name(); });

@@ -20,6 +20,7 @@ struct Subject {
   LightOnMap& lit;
   const Method& method;
   ChosenFilter filter;
+  const LabelledResult* judged;  // null: not yet
 
   const Receivers& receivers() const { return lit.receivers(); }
   std::vector<float> visibility() const { return lit.visibility(method, filter); }
@@ -72,7 +73,9 @@ RenderedPicture labelled(const Subject& subject, const LabelImage& labels, const
 }
 
 RenderedPicture labels(const Subject& subject) {
-  return labelled(subject, subject.lit.judge(subject.method).labels, subject.method.bias->name);
+  const char* name = subject.method.bias->name;
+  if (subject.judged != nullptr) return labelled(subject, subject.judged->labels, name);
+  return labelled(subject, subject.lit.judge(subject.method).labels, name);
 }
 
 // Verdicts of a prediction; where nothing is scored none was asked for.
@@ -178,14 +181,11 @@ std::vector<std::string> picturesToShow() {
   return names;
 }
 
-RenderedPicture renderPicture(const Session& session, const CompareOptions& options, const std::string& show) {
+RenderedPicture drawPicture(LightOnMap& lit, const Method& method, const ChosenFilter& filter, const std::string& show,
+                            const LabelledResult* judged) {
   const auto* const shown = std::ranges::find_if(kShown, [&](const ShowChoice& s) { return s.name == show; });
   if (shown == kShown.end()) throw UsageError(fmt::format("--show {}: no such picture", show));
-  const Parameterization& map = *options.maps.front();
-  ShadowPasses passes(session);
-  LightOnMap lit = openLight(session, passes, map, mapSetupOf(options, map));
-  const Method method = methodFor(session, options, *options.biases.front());
-  RenderedPicture picture = shown->draw({lit, method, filterFor(options, *options.filters.front())});
+  RenderedPicture picture = shown->draw({lit, method, filter, judged});
   picture.note = lit.fitted().note;
   if (picture.channels.isColour) picture.exposure = lit.exposureFactor();
   return picture;
@@ -207,10 +207,18 @@ RenderedPicture renderLabelsOf(const Session& session, const CompareOptions& opt
   const std::vector<Verdict> verdicts = verdictsOf(image, lit.receivers());
   const LabelImage labels = labelPixels(session.tracer(), lit.light(), lit.receivers(), lit.truth(), verdicts,
                                         [&](size_t pixel) { return texelRayW(lit.fitted(), diagnosis[pixel].texel); });
-  RenderedPicture picture =
-      labelled({lit, method, filterFor(options, *options.filters.front())}, labels, prediction.stem().string());
+  RenderedPicture picture = labelled({lit, method, filterFor(options, *options.filters.front()), nullptr}, labels,
+                                     prediction.stem().string());
   picture.note = countsText(labels, lit.receivers());
   return picture;
+}
+
+RenderedPicture renderPicture(const Session& session, const CompareOptions& options, const std::string& show) {
+  const Parameterization& map = *options.maps.front();
+  ShadowPasses passes(session);
+  LightOnMap lit = openLight(session, passes, map, mapSetupOf(options, map));
+  const Method method = methodFor(session, options, *options.biases.front());
+  return drawPicture(lit, method, filterFor(options, *options.filters.front()), show);
 }
 
 }  // namespace gnomon

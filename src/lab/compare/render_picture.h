@@ -20,6 +20,10 @@ struct RenderedPicture {
 // What can be shown, by name: beauty, visibility, truth, ...
 std::vector<std::string> picturesToShow();
 
+// Of one light on one map. `judged`: what judge() said of the method, where that is known already; else null.
+RenderedPicture drawPicture(LightOnMap& lit, const Method& method, const ChosenFilter& filter, const std::string& show,
+                            const LabelledResult* judged = nullptr);
+
 // By the first map, bias and filter of the options. Throws UsageError, WorldError.
 RenderedPicture renderPicture(const Session& session, const CompareOptions& options, const std::string& show);
 

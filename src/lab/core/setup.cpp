@@ -4,6 +4,7 @@
 #include "base/suggest.h"
 #include "judge/ground_truth.h"
 #include "lab/core/default_view.h"
+#include "lab/core/maps.h"
 #include "scene/generate.h"
 
 #include <algorithm>
@@ -249,6 +250,14 @@ std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& trace
 std::vector<Light> lightsAsked(const SetupOptions& options, const Tracer& tracer) {
   if (options.light.empty() || options.light == "all") return tracer.scene().lights;
   return {findLight(tracer.scene(), options.light)};
+}
+
+const Parameterization& usualMapOf(const SetupOptions& options, const Tracer& tracer, const MapOptions& mapOptions) {
+  const std::vector<Light> lights = lightsAsked(options, tracer);
+  LightType type = lights.empty() ? LightType::Point : lights.front().type;
+  const bool hasCone = !options.direction.empty() || options.coneDegrees;
+  if (type == LightType::Point && hasCone) type = LightType::Spot;
+  return usualMapFor(type, mapOptions);
 }
 
 Camera chooseCamera(const SetupOptions& options, const Tracer& tracer) {

@@ -53,6 +53,10 @@ std::vector<Light> chooseLights(const SetupOptions& options, const Tracer& trace
 // The lights that the command line asks for, whatever the map: the one it names, else the scene's.
 std::vector<Light> lightsAsked(const SetupOptions& options, const Tracer& tracer);
 
+// The map that a session draws where none is named: the usual one of the first light that is asked for; a spot where it
+// is said which way it shines, or how wide.
+const Parameterization& usualMapOf(const SetupOptions& options, const Tracer& tracer, const MapOptions& mapOptions);
+
 // Throws UsageError (malformed, or none of that name: lists those there are).
 Camera chooseCamera(const SetupOptions& options, const Tracer& tracer);
 

@@ -81,8 +81,13 @@ void timeMethods(const SceneView& scene, MediaPass& pass, LightMaps& maps, const
 
 std::vector<FogMethodResult> runFogMethods(const SceneView& scene, ShadowPasses& passes, const FogView& view,
                                            const FogMethodOptions& options) {
+  MediaPass pass(scene.device(), scene.view().width, scene.view().height);
+  return runFogMethods(scene, passes, pass, view, options);
+}
+
+std::vector<FogMethodResult> runFogMethods(const SceneView& scene, ShadowPasses& passes, MediaPass& pass,
+                                           const FogView& view, const FogMethodOptions& options) {
   const int width = scene.view().width, height = scene.view().height;
-  MediaPass pass(scene.device(), width, height);
   pass.setMedium(scene.view(), view.medium, view.densityBuffers.get());
   const bool heterogeneous = view.densityBuffers != nullptr;
   std::vector<FogMethodResult> results(options.methods.size());

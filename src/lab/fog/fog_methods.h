@@ -25,7 +25,10 @@ struct FogMethodResult {
   double buildMs() const { return mapMs + tableMs; }
 };
 
-// One a method, in order.
+// One a method, in order. `pass`: of the view's size, kept by who draws picture after picture.
+std::vector<FogMethodResult> runFogMethods(const SceneView& scene, ShadowPasses& passes, MediaPass& pass,
+                                           const FogView& view, const FogMethodOptions& options);
+// The same by a pass of its own.
 std::vector<FogMethodResult> runFogMethods(const SceneView& scene, ShadowPasses& passes, const FogView& view,
                                            const FogMethodOptions& options);
 

@@ -80,15 +80,6 @@ std::string stemOf(const MediaRow& row) {
   return stem;
 }
 
-std::string writeVideos(const fs::path& folder, const std::vector<std::string>& stems) {
-  const fs::path ffmpeg = findProgram("ffmpeg");
-  if (ffmpeg.empty()) return "frames as PNG; no video, since there is no ffmpeg on PATH";
-  for (const std::string& stem : stems)
-    if (!writeVideo(ffmpeg, folder / stem, folder / (stem + ".mp4")))
-      return fmt::format("frames as PNG; ffmpeg failed on those of {}", stem);
-  return "frames as PNG, and a video of each";
-}
-
 // The scene as the camera sees the frame, and the lights of the frame.
 struct Moment {
   std::unique_ptr<SceneView> moved;
@@ -111,6 +102,15 @@ Moment momentAt(const SceneView& scene, const std::vector<Light>& lights, const 
 }
 
 }  // namespace
+
+std::string writeVideos(const fs::path& folder, const std::vector<std::string>& stems) {
+  const fs::path ffmpeg = findProgram("ffmpeg");
+  if (ffmpeg.empty()) return "frames as PNG; no video, since there is no ffmpeg on PATH";
+  for (const std::string& stem : stems)
+    if (!writeVideo(ffmpeg, folder / stem, folder / (stem + ".mp4")))
+      return fmt::format("frames as PNG; ffmpeg failed on those of {}", stem);
+  return "frames as PNG, and a video of each";
+}
 
 glm::vec3 placeAt(const FogMotion& motion, const glm::vec3& startW, int frame) {
   return startW + motion.offsetW * (static_cast<float>(frame) / static_cast<float>(motion.frames - 1));

@@ -14,6 +14,10 @@ FogMotion parseMotion(const std::string& text, int frames);
 // frame that is whole.
 void runMotion(const SceneView& scene, ShadowPasses& passes, const FogOptions& options, FogResult& result);
 
+// Of the frames 0000.png, 0001.png, ... in FOLDER/STEM a video FOLDER/STEM.mp4 for each stem, where ffmpeg is on PATH.
+// What became of it, in words.
+std::string writeVideos(const std::filesystem::path& folder, const std::vector<std::string>& stems);
+
 // The camera's or a light's place at a frame, along a line.
 glm::vec3 placeAt(const FogMotion& motion, const glm::vec3& startW, int frame);
 // A light at a frame; an orbit's centre is the scene's.

@@ -28,6 +28,8 @@ constexpr glm::u8vec3 kAgreeLit(222, 222, 222);
 constexpr glm::u8vec3 kAgreeShadow(112, 112, 112);
 constexpr glm::u8vec3 kText(235, 235, 235);
 
+}  // namespace
+
 glm::u8vec3 labelColor(Label label) {
   switch (label) {
     case Label::NotScored:
@@ -48,6 +50,8 @@ glm::u8vec3 labelColor(Label label) {
   return {255, 0, 255};
 }
 
+namespace {
+
 void setPixel(Image8& image, int x, int y, const glm::u8vec3& color) {
   uint8_t* p = image.at(x, y);
   for (int c = 0; c < 3; ++c) p[c] = color[c];
@@ -57,8 +61,6 @@ void fillRectangle(Image8& image, int x0, int y0, int x1, int y1, const glm::u8v
   for (int y = std::max(y0, 0); y < std::min(y1, image.height); ++y)
     for (int x = std::max(x0, 0); x < std::min(x1, image.width); ++x) setPixel(image, x, y, color);
 }
-
-constexpr glm::u8vec3 kUnseen(0, 158, 115);  // bluish green
 
 struct LegendEntry {
   std::string text;
@@ -70,7 +72,7 @@ std::vector<LegendEntry> legendEntries(const LabelImage& labels, const Receivers
   for (const Label label : {Label::Acne, Label::Leak, Label::EdgeShadow, Label::EdgeLight, Label::Uncovered})
     entries.push_back({fmt::format("{} {}", labelName(label), labels.count(label)), labelColor(label)});
   if (labels.unseen)
-    entries.push_back({fmt::format("of leak and edge_light unseen {}", labels.unseen->occluders), kUnseen});
+    entries.push_back({fmt::format("of leak and edge_light unseen {}", labels.unseen->occluders), kUnseenColor});
   entries.push_back({fmt::format("not scored {}", receivers.facingAway + receivers.outsideCone), kDark});
   return entries;
 }
@@ -223,7 +225,7 @@ Image8 labelPicture(const Receivers& receivers, const Truth& truth, const LabelI
       else if (labels.labels[i] == Label::Agree && truth.lit[i] == 0)
         color = kAgreeShadow;
       else if (labels.unseen && labels.unseen->of[i] != Unseen::Nothing)
-        color = kUnseen;
+        color = kUnseenColor;
       setPixel(image, x, y, color);
     }
   }

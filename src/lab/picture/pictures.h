@@ -15,6 +15,10 @@ namespace gnomon {
 // every colour and counts its pixels. Leak and edge_light whose occluder no texel names have a colour of their own.
 Image8 labelPicture(const Receivers& receivers, const Truth& truth, const LabelImage& labels, const std::string& title);
 
+// What a label is drawn in, and a pixel whose occluder no texel names.
+glm::u8vec3 labelColor(Label label);
+inline constexpr glm::u8vec3 kUnseenColor(0, 158, 115);  // bluish green
+
 // One value a pixel: 1 white, 0 black; kUnknownVisibility magenta; pixels without a surface dark blue.
 Image8 visibilityPicture(const Receivers& receivers, std::span<const float> visibility);
 

@@ -1,0 +1,32 @@
+#pragma once
+// How controls are made, for the files that declare them.
+
+#include "view/view_controls.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+// Where a member of the state is.
+template <typename T>
+using Place = std::function<T&(ViewState&)>;
+
+Control numberControl(Control control, const Place<double>& place);
+Control toggleControl(Control control, const Place<bool>& place);
+Control textControl(Control control, const Place<std::string>& place);
+
+// Throw UsageError.
+double numberIn(const std::string& name, const std::string& text, double lower, double upper, const std::string& unit);
+void checkChoice(const std::string& name, const std::string& text, const std::vector<std::string>& choices);
+
+// scene_controls.cpp
+void addScene(std::vector<Control>& controls);
+void addLight(std::vector<Control>& controls, const std::shared_ptr<const TracedScene>& traced);
+void addCamera(std::vector<Control>& controls, const std::shared_ptr<const TracedScene>& traced);
+void addExposure(std::vector<Control>& controls);
+// method_controls.cpp: of A or B, whose names begin with `prefix`
+void addSide(std::vector<Control>& controls, size_t side, float sceneScale);
+
+}  // namespace gnomon

@@ -1,0 +1,139 @@
+// What a person sets, takes back, opens, saves and copies.
+
+#include "view/view_window.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/image.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+namespace gnomon {
+
+void ViewWindow::say(const std::string& line, bool isProblem) {
+  message_ = line;
+  messageIsProblem_ = isProblem;
+  messageTime_ = ViewClock::now();
+  framesPending_ = std::max(framesPending_, 2);
+}
+
+void ViewWindow::noteChange(bool goesOn) {
+  changed_ = true;
+  goesOn_ = goesOn;
+  lastChange_ = ViewClock::now();
+}
+
+void ViewWindow::rememberState() {
+  const std::string now = sessionJson(state_);
+  if (now == current_) return;
+  past_.push_back(std::exchange(current_, now));
+  constexpr size_t kMostStates = 500;
+  if (past_.size() > kMostStates) past_.erase(past_.begin());
+  future_.clear();
+}
+
+void ViewWindow::undo() {
+  rememberState();
+  if (past_.empty()) return say("nothing to undo", false);
+  guarded([&] {
+    state_ = readSession("undo", past_.back(), state_);
+    future_.push_back(std::exchange(current_, past_.back()));
+    past_.pop_back();
+    noteChange(false);
+  });
+}
+
+void ViewWindow::redo() {
+  rememberState();
+  if (future_.empty()) return say("nothing to redo", false);
+  guarded([&] {
+    state_ = readSession("redo", future_.back(), state_);
+    past_.push_back(std::exchange(current_, future_.back()));
+    future_.pop_back();
+    noteChange(false);
+  });
+}
+
+void ViewWindow::setControl(const std::string& name, const std::string& value) {
+  const Control& control = findControl(controls_, name);
+  ViewState changed = state_;
+  control.set(changed, value);
+  state_ = changed;
+  noteChange(false);
+}
+
+std::string ViewWindow::getControl(const std::string& name) const {
+  return findControl(controls_, name).get(state_);
+}
+
+void ViewWindow::openFile(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".gltf" || extension == ".glb") {
+    setControl("scene", path);
+  } else if (extension == ".vdb") {
+    state_.fog.on = true;
+    state_.fog.density = path;
+  } else if (extension == ".json") {
+    state_ = readSession(path, readFile(path, 1 << 20), state_);
+  } else if (extension == ".glsl") {
+    setControl("a.bias", path);
+  } else {
+    throw UsageError(path + ": drop a scene (.gltf, .glb), a density (.vdb), a bias (.glsl) or a session (.json)");
+  }
+  pivot_.reset();
+  noteChange(false);
+}
+
+void ViewWindow::openDropped() {
+  for (const std::string& path : std::exchange(dropped_, {})) guarded([&] { openFile(path); });
+}
+
+void ViewWindow::saveSession(const std::string& path) {
+  writeTextFile(path, sessionJson(state_));
+  say("saved " + path, false);
+}
+
+void ViewWindow::writePictureFile(const std::string& path, int side) {
+  if (!picture_ || picture_->sides[static_cast<size_t>(side)].image.values.empty())
+    throw WorldError("there is no picture yet");
+  writePng(path, picture_->sides[static_cast<size_t>(side)].image);
+  say("wrote " + path, false);
+}
+
+std::pair<int, int> ViewWindow::pictureSize() const {
+  if (!state_.setup.size.empty()) {
+    const PictureSize size = parseSize(state_.setup.size);
+    return {size.width, size.height};
+  }
+  return {std::max(canvas_.width, 16), std::max(canvas_.height - unfoldedRoom_, 16)};
+}
+
+std::string ViewWindow::statusCommand() const {
+  const auto [width, height] = pictureSize();
+  if (!state_.split) return pictureCommand(state_, 0, width, height, "picture.png");
+  return pictureCommand(state_, 0, width, height, "a.png") + " && " + pictureCommand(state_, 1, width, height, "b.png");
+}
+
+std::string ViewWindow::compareCommandOfSides() const {
+  const auto [width, height] = pictureSize();
+  return comparisonCommand(state_, width, height);
+}
+
+void ViewWindow::copyCommand(bool ofComparison) {
+  const std::string command = ofComparison ? compareCommandOfSides() : statusCommand();
+  glfwSetClipboardString(window_, command.c_str());
+  say("copied: " + command, false);
+}
+
+std::string ViewWindow::rescueSession() const {
+  const std::string path = options_.session.empty() ? "gnomon-view.json" : options_.session;
+  writeTextFile(path, sessionJson(state_));
+  return path;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,52 @@
+// All that is set, as a file.
+
+#include "base/error.h"
+#include "base/parse_json.h"
+#include "view/view_controls.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace gnomon {
+
+namespace {
+
+constexpr int kSessionVersion = 1;
+
+}  // namespace
+
+std::string sessionJson(const ViewState& state) {
+  const std::vector<Control> controls = viewControls(nullptr);
+  nlohmann::ordered_json json;
+  json["gnomon_view"] = kSessionVersion;
+  for (const Control& control : controls) {
+    if (!control.derived && control.isGiven(state)) json[control.name] = control.get(state);
+  }
+  return json.dump(2) + "\n";
+}
+
+ViewState readSession(const std::string& path, const std::string& text, const ViewState& others) {
+  nlohmann::ordered_json json;
+  try {
+    json = parseJson<nlohmann::ordered_json>(text, {.depth = 4, .members = 1000});
+  } catch (const nlohmann::json::exception&) {
+    throw WorldError(path + ": is no JSON; open a session that gnomon view saved");
+  }
+  if (!json.is_object() || !json.contains("gnomon_view"))
+    throw WorldError(path + ": is no session of gnomon view (it has no member gnomon_view)");
+  if (json["gnomon_view"] != kSessionVersion)
+    throw WorldError(
+        fmt::format("{}: is a session of another version of gnomon view; this one reads {}", path, kSessionVersion));
+  ViewState state = others;
+  const std::vector<Control> controls = viewControls(nullptr);
+  for (ViewSide& side : state.sides) side.options.knobs.clear();
+  for (const auto& [name, value] : json.items()) {
+    if (name == "gnomon_view") continue;
+    if (!value.is_string()) throw WorldError(fmt::format("{}: {} is no text", path, name));
+    // A map or a bias comes before what only means something with it, as the controls stand in order.
+    findControl(controls, name).set(state, value.get<std::string>());
+  }
+  return state;
+}
+
+}  // namespace gnomon
