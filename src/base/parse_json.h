@@ -20,6 +20,7 @@ namespace gnomon {
 struct JsonLimits {
   size_t depth = 64;
   size_t members = std::numeric_limits<size_t>::max();  // of an object
+  bool comments = false;                                // are passed over: // to the line's end, and /* */
 };
 
 namespace detail {
@@ -70,8 +71,9 @@ class JsonCounter final : public nlohmann::json_sax<nlohmann::json> {
 template <typename Json>
 Json parseJson(std::string_view text, const JsonLimits& limits) {
   detail::JsonCounter counter(limits);
-  nlohmann::json::sax_parse(text.begin(), text.end(), &counter);
-  return Json::parse(text.begin(), text.end());
+  nlohmann::json::sax_parse(text.begin(), text.end(), &counter, nlohmann::json::input_format_t::json, true,
+                            limits.comments);
+  return Json::parse(text.begin(), text.end(), nullptr, true, limits.comments);
 }
 
 }  // namespace gnomon

@@ -4,6 +4,7 @@ namespace gnomon {
 
 // Of the files <name>_verb.cpp.
 Verb compareVerb();
+Verb sweepVerb();
 Verb renderVerb();
 Verb exportVerb();
 Verb reportVerb();
@@ -18,9 +19,9 @@ Verb completionVerb();
 Verb manVerb();
 
 const std::vector<Verb>& verbs() {
-  static const std::vector<Verb> all = {compareVerb(), renderVerb(),     viewVerb(),  exportVerb(), reportVerb(),
-                                        fogVerb(),     vsvVerb(),        sceneVerb(), benchVerb(),  reproduceVerb(),
-                                        infoVerb(),    completionVerb(), manVerb()};
+  static const std::vector<Verb> all = {compareVerb(),   sweepVerb(), renderVerb(),     viewVerb(),  exportVerb(),
+                                        reportVerb(),    fogVerb(),   vsvVerb(),        sceneVerb(), benchVerb(),
+                                        reproduceVerb(), infoVerb(),  completionVerb(), manVerb()};
   return all;
 }
 

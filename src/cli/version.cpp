@@ -1,6 +1,8 @@
 #include "cli/version.h"
 
+#include "base/file.h"
 #include "lab/results/schema.h"
+#include "lab/store/content_hash.h"
 
 #include "build_facts.h"
 #include "git_describe.h"
@@ -29,6 +31,12 @@ std::string versionText() {
                      commit.empty() ? "" : " (" + commit + ")", compilerText(), kBuildType,
                      VK_API_VERSION_MAJOR(VK_HEADER_VERSION_COMPLETE), VK_API_VERSION_MINOR(VK_HEADER_VERSION_COMPLETE),
                      VK_API_VERSION_PATCH(VK_HEADER_VERSION_COMPLETE), kLibraries);
+}
+
+std::string programText() {
+  std::string commit = kGitDescribe;
+  if (commit.ends_with("-dirty")) commit += " " + hashOf(readFile("/proc/self/exe")).substr(0, 8);
+  return fmt::format("{}{}", gnomonVersion(), commit.empty() ? "" : " (" + commit + ")");
 }
 
 }  // namespace gnomon

@@ -4,7 +4,6 @@
 #include "base/message.h"
 #include "scene/draco_codec.h"
 
-#include <algorithm>
 #include <dlfcn.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Damaged files by the ten thousand, to every reader that Gnomon has; run by tools/mutate under sanitizers.
 //
-//   mutate KIND COUNT FOLDER SEED...     KIND: gltf, image, results, bias, shader, density
+//   mutate KIND COUNT FOLDER SEED...     KIND: gltf, image, results, bias, shader, density, plan
 //
 // Number n is always the same: `mutate --one KIND n FOLDER SEED...` repeats it. Each must give what the reader promises
 // or a WorldError of one line, within 10 s of processor time; the input that does not is left in FOLDER, and its number
@@ -11,6 +11,7 @@
 #include "base/image.h"
 #include "base/message.h"
 #include "lab/page/report.h"
+#include "lab/sweep/axes.h"
 #include "scene/gltf.h"
 #include "shadow/user_bias_check.h"
 #include "vsv/media/density.h"
@@ -149,12 +150,16 @@ void readDensity(const std::string& bytes, const fs::path& folder) {
   grid.at(0.5 * glm::dvec3(grid.boundsW().lower + grid.boundsW().upper));
 }
 
+void readPlanText(const std::string& bytes, const fs::path& folder) {
+  axesOf(parsePlan(folder / "m.json", bytes));
+}
+
 using Read = void (*)(const std::string& bytes, const fs::path& folder);
 
 Read readerOf(const std::string& kind) {
-  static const std::pair<const char*, Read> kReaders[] = {{"gltf", readScene},     {"image", readPicture},
-                                                          {"results", readFolder}, {"bias", readBiasText},
-                                                          {"shader", compileBias}, {"density", readDensity}};
+  static const std::pair<const char*, Read> kReaders[] = {
+      {"gltf", readScene},     {"image", readPicture},   {"results", readFolder}, {"bias", readBiasText},
+      {"shader", compileBias}, {"density", readDensity}, {"plan", readPlanText}};
   for (const auto& [name, read] : kReaders)
     if (kind == name) return read;
   std::fprintf(stderr, "no such kind: %s\n", kind.c_str());

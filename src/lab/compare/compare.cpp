@@ -4,19 +4,17 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "judge/filtered_truth.h"
-#include "judge/texel_density.h"
 #include "lab/compare/compare_command.h"
 #include "lab/compare/equal_error.h"
+#include "lab/compare/method_row.h"
 #include "lab/compare/robustness.h"
 #include "lab/compare/row_pictures.h"
 #include "lab/compare/tune.h"
 #include "lab/core/depth_images.h"
-#include "lab/core/map_params.h"
 #include "lab/core/results_head.h"
 #include "lab/picture/flip.h"
 #include "lab/picture/pictures.h"
 #include "lab/picture/unfold.h"
-#include "vsv/shadow_volume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,57 +72,6 @@ struct Entry {
   bool has(const Filter& filter) const { return tunedFor == nullptr || tunedFor == &filter; }
 };
 
-// Knobs, then what the map holds and how it is drawn and fitted.
-Params paramsOf(const Method& method, const Filter& filter, const Parameterization& map, const FittedMap& fitted,
-                const CompareOptions& choice) {
-  const BiasMethod& bias = *method.bias;
-  Params params;
-  for (const Knob& knob : knobsOf(bias)) params.push_back({knob.name, shortest(valueOf(method.params, bias, knob))});
-  const ChosenFilter chosen = filterFor(choice, filter);
-  for (size_t i = 0; i < filter.knobs.size(); ++i)
-    params.push_back({filterParamName(filter.knobs[i].name), shortest(chosen.params.knobs[i])});
-  for (const BiasChoice* way : bias.choices) params.push_back({way->name, way->text(method.params)});
-  params.push_back({"map_content", contentName(bias.channels)});
-  params.push_back({"cull", cullModeName(choice.cull)});
-  for (const Param& param : mapParams(map, fitted, choice.mapOptions)) params.push_back(param);
-  return params;
-}
-
-std::optional<Walks> walksOf(const WalkCounts& counts) {
-  if (counts.walks == 0) return std::nullopt;
-  const auto share = [&](int end) { return static_cast<double>(counts.ends[end]) / static_cast<double>(counts.walks); };
-  return Walks{.count = counts.walks,
-               .meanSteps = static_cast<double>(counts.steps) / static_cast<double>(counts.walks),
-               .longest = static_cast<int>(counts.longest),
-               .receiver = share(glsl::kWalkReceiver),
-               .witness = share(glsl::kWalkWitness),
-               .behind = share(glsl::kWalkBehind),
-               .hole = share(glsl::kWalkHole),
-               .open = share(glsl::kWalkOpen),
-               .fold = share(glsl::kWalkFold),
-               .aborted = counts.ends[glsl::kWalkAborted]};
-}
-
-void describe(Row& row, const Entry& entry, const LabelledResult& judged) {
-  const BiasMethod& bias = *entry.method.bias;
-  row.bias = bias.name;
-  row.tuning = entry.tuning;
-  for (const Knob& knob : knobsOf(bias)) row.units.emplace_back(knob.name, unitName(knob.unit));
-  const LabelImage& labels = judged.labels;
-  row.agree = labels.count(Label::Agree);
-  row.acne = labels.count(Label::Acne);
-  row.leak = labels.count(Label::Leak);
-  row.edgeShadow = labels.count(Label::EdgeShadow);
-  row.edgeLight = labels.count(Label::EdgeLight);
-  row.uncovered = labels.count(Label::Uncovered);
-  row.scored = row.agree + row.acne + row.leak + row.edgeShadow + row.edgeLight + row.uncovered;
-  if (labels.unseen) row.unseenOccluder = labels.unseen->occluders;
-  if (labels.unseen) row.unseenSurface = labels.unseen->surfaces;
-  row.grazing = judged.grazing;
-  row.edgeOn = judged.edgeOn.size();
-  row.walks = walksOf(judged.walks);
-}
-
 // Everything of one map: its rows, its summary, its pictures.
 class MapComparison {
  public:
@@ -152,7 +99,7 @@ class MapComparison {
     summary.zFar = fitted.zFar;
     summary.fitNote = fitted.note;
     summary.fitMs = lit_.fitMs();
-    summary.texel = medianTexel();
+    summary.texel = medianTexelWidth(lit_);
     for (const Filter* filter : options_.filters) filteredTruth(*filter);
 
     std::vector<Method> methods;
@@ -188,21 +135,6 @@ class MapComparison {
     truth.visibility = lit_.filteredTruth(filterFor(options_, filter));
     truth.beauty = toSrgb8(lit_.radiance(truth.visibility));
     return truths_.emplace(filter.id, std::move(truth)).first->second;
-  }
-
-  // Metres; over one in kTexelStride of the scored pixels.
-  std::optional<double> medianTexel() const {
-    constexpr size_t kTexelStride = 61;
-    if (!parameterization_.supportsFilters()) return std::nullopt;  // holds no depths
-    std::vector<double> widths;
-    const Receivers& receivers = lit_.receivers();
-    size_t seen = 0;
-    for (size_t i = 0; i < receivers.states.size(); ++i) {
-      if (receivers.states[i] != PixelState::Scored || seen++ % kTexelStride != 0) continue;
-      const auto density = texelDensity(lit_.fitted(), receivers.samples[i].positionW, receivers.samples[i].normalW);
-      if (density && *density > 0.0) widths.push_back(1.0 / std::sqrt(*density));
-    }
-    return widths.empty() ? std::nullopt : std::optional(median(widths));
   }
 
   void addNotes(const TruthSummary& summary, std::vector<std::string>& notes) const {
@@ -256,7 +188,6 @@ class MapComparison {
 
   void judgeEntry(const Entry& entry) {
     const LabelledResult judged = lit_.judge(entry.method);
-    const FittedMap& fitted = lit_.fitted();
     for (const Filter* filter : options_.filters) {
       if (!entry.has(*filter)) continue;
       const FilteredTruth& truth = filteredTruth(*filter);
@@ -264,23 +195,9 @@ class MapComparison {
                                           ? judged.visibility
                                           : lit_.visibility(entry.method, filterFor(options_, *filter));
       for (const size_t pixel : judged.edgeOn) visibility[pixel] = truth.visibility[pixel];
-      Row row;
-      row.map = parameterization_.name();
-      row.light = lit_.source().name;
-      row.mapSide = fitted.map.width;
-      row.layers = fitted.map.sliceCount;
-      row.mapTexels = size_t{1} * fitted.map.width * fitted.map.height * fitted.map.sliceCount;
-      row.mapBytes = mapBytes(fitted, entry.method.bias->channels);
-      row.mapDimensions = mapSizeText(fitted);
-      row.isGiven = isGiven(*entry.method.bias);
-      row.params = paramsOf(entry.method, *filter, parameterization_, fitted, options_);
-      row.filter = filter->name;
-      describe(row, entry, judged);
-      for (const Knob& knob : filter->knobs) row.units.emplace_back(filterParamName(knob.name), unitName(knob.unit));
+      Row row = measuredRow(lit_, entry.method, judged, *filter, options_);
+      row.tuning = entry.tuning;
       row.rmse = scoredRmse(lit_.receivers(), visibility, truth.visibility);
-      const int width = lit_.receivers().width, height = lit_.receivers().height;
-      row.worstAcne = findWorstPlace(judged.labels, width, height, Label::Acne);
-      row.worstLeak = findWorstPlace(judged.labels, width, height, Label::Leak);
       // Half a second a row at 1024 x 1024: what binary results have labels for.
       const bool flips = options_.filters.size() > 1 || filter->id != glsl::kShadowFilterNone;
       Image8 beauty;
@@ -291,10 +208,6 @@ class MapComparison {
             writeRowPictures(lit_.groundTruth(), judged, visibility, beauty, truth, namesOf(row), options_.outDir);
       rows_.push_back(std::move(row));
     }
-  }
-
-  bool isGiven(const BiasMethod& bias) const {
-    return std::ranges::any_of(options_.knobs, [&](const KnobValue& value) { return hasKnob(bias, *value.knob); });
   }
 
   RowPictureNames namesOf(const Row& row) const {
@@ -450,18 +363,6 @@ CompareOptions optionsFor(const CompareOptions& options, const Parameterization&
   std::erase_if(own.filters,
                 [&](const Filter* filter) { return filter->id != glsl::kShadowFilterNone && !map.supportsFilters(); });
   return own;
-}
-
-std::string mapSizeText(const FittedMap& fitted) {
-  const glsl::EpipolarGrid& grid = fitted.map.epipolar;
-  if (fitted.map.kind != glsl::kMapEpipolar) return fmt::format("{}", fitted.map.width);
-  return volumeSizeName({.alpha = grid.alphaCount, .theta = grid.thetaCount, .phi = grid.phiCount});
-}
-
-size_t mapBytes(const FittedMap& fitted, ChannelSet channels) {
-  const glsl::EpipolarGrid& grid = fitted.map.epipolar;
-  if (fitted.map.kind == glsl::kMapEpipolar) return size_t{1} * grid.alphaCount * grid.thetaCount * grid.phiCount / 8;
-  return size_t{1} * fitted.map.width * fitted.map.height * fitted.map.sliceCount * bytesOf(completed(channels));
 }
 
 Comparison compare(const Session& session, const CompareOptions& options) {

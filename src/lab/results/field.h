@@ -36,7 +36,7 @@ enum class NumberKind {
 // std::optional may be missing always.
 enum class Absent {
   Refused,
-  Earlier,  // files of earlier schemas lack it
+  Earlier,  // files of earlier schemas lack it, or a person may leave it out
   LeftOut,  // of a std::optional: no field where there is no value, else null
 };
 

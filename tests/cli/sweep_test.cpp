@@ -1,0 +1,136 @@
+// gnomon sweep as a person runs it: killed, twice at once, with mistakes, on full disks.
+#include "cli_fixture.h"
+#include "running_program.h"
+
+#include "lab/store/store.h"
+#include "tests/base/places.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <thread>
+
+namespace gnomon {
+namespace {
+
+using test::CliTest;
+
+class SweepCliTest : public CliTest {
+ protected:
+  void SetUp() override {
+    writeTextFile(folder_ / "p.json", R"({
+  // small
+  "scenes": ["contact", "corner"], "size": "64", "repeats": 1, "cameras": ["default", {"random": 1}],
+  "maps": ["cube", "directional"], "map_sizes": [48, 64], "biases": ["none", "slope", "witness"]})");
+  }
+
+  std::string contents(const std::string& db) const {
+    const Store store(folder_ / db, sql::Open::Existing);
+    std::string text;
+    sql::Statement rows = store.database().prepare(
+        "SELECT key, scene, camera, map, map_size, method, scored, agree, acne, leak, rmse, worst_acne FROM results "
+        "ORDER BY key");
+    while (rows.step()) {
+      for (int i = 0; i < rows.columnCount(); ++i) text += rows.text(i) + "|";
+      text += "\n";
+    }
+    return text;
+  }
+
+  // The program, started and not waited for.
+  pid_t start(const std::string& db) const {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    const std::string plan = (folder_ / "p.json").string(), store = (folder_ / db).string();
+    const std::string program = test::inBuild("gnomon");
+    [[maybe_unused]] const auto* out = std::freopen("/dev/null", "w", stdout);
+    [[maybe_unused]] const auto* err = std::freopen((folder_ / (db + ".err")).c_str(), "w", stderr);
+    ::execl(program.c_str(), program.c_str(), "sweep", plan.c_str(), "--db", store.c_str(), "--quiet", nullptr);
+    ::_exit(127);
+  }
+};
+
+TEST_F(SweepCliTest, KilledAndResumedItIsAsIfNothingHadHappened) {
+  ASSERT_EQ(run("sweep @/p.json --db @/whole.db").exitCode, 0);
+  int kills = 0;
+  for (int delay = 250; kills < 4 && delay < 4000; delay += 180) {
+    const pid_t child = start("killed.db");
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    if (!WIFSIGNALED(status)) break;
+    ++kills;
+  }
+  EXPECT_GT(kills, 0);
+  const test::Result last = run("sweep @/p.json --db @/killed.db");
+  ASSERT_EQ(last.exitCode, 0) << last.err;
+  EXPECT_EQ(contents("killed.db"), contents("whole.db"));
+  EXPECT_NE(run("sweep @/p.json --db @/killed.db").out.find("; 0 rows of 0 cases measured"), std::string::npos);
+}
+
+TEST_F(SweepCliTest, TwoProcessesOnOneStoreNeverDoACaseTwice) {
+  const pid_t a = start("both.db"), b = start("both.db");
+  int status = 0;
+  for (const pid_t child : {a, b}) {
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0) << readFile(folder_ / "both.db.err");
+  }
+  ASSERT_EQ(run("sweep @/p.json --db @/whole.db").exitCode, 0);
+  EXPECT_EQ(contents("both.db"), contents("whole.db"));
+  // A row that were written twice would have a later rowid than there are rows.
+  const Store store(folder_ / "both.db", sql::Open::Existing);
+  EXPECT_EQ(store.database().integerOf("SELECT max(rowid) FROM result"),
+            store.database().integerOf("SELECT count(*) FROM result"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "both.db-workers"));
+}
+
+TEST_F(SweepCliTest, ShardsMergeAndReportsAreWritten) {
+  for (const char* shard : {"1/2", "2/2"})
+    ASSERT_EQ(run(std::string("sweep @/p.json --shard ") + shard + " --db @/part" + shard[0] + ".db").exitCode, 0);
+  const test::Result merged = run("sweep merge @/part1.db @/part2.db -o @/all.db");
+  ASSERT_EQ(merged.exitCode, 0) << merged.err;
+  const test::Result again = run("sweep @/p.json --db @/all.db");
+  EXPECT_NE(again.out.find("; 0 rows of 0 cases measured"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("witness"), std::string::npos);
+  const test::Result report =
+      run("report @/all.db -o @/page.html --csv @/a.csv --latex @/a.tex --json @/a.json --markdown -");
+  ASSERT_EQ(report.exitCode, 0) << report.err;
+  EXPECT_NE(report.out.find("<!-- sweep:ranking -->"), std::string::npos);
+  EXPECT_NE(readFile(folder_ / "page.html").find("</html>"), std::string::npos);
+  EXPECT_NE(run("sweep @/p.json --db @/all.db --dry-run").out.find("cases"), std::string::npos);
+}
+
+// Those of docs/sweep.md, but DuckDB's, which has functions of its own.
+TEST_F(SweepCliTest, QueriesOfTheDocumentationRun) {
+  ASSERT_EQ(run("sweep @/p.json --db @/plan.db --quiet").exitCode, 0);
+  const std::string page = readFile(test::inSource("docs/sweep.md"));
+  const Store store(folder_ / "plan.db", sql::Open::Existing);
+  size_t queries = 0;
+  for (size_t at = page.find("SELECT "); at != std::string::npos; at = page.find("SELECT ", at + 1)) {
+    const size_t line = page.rfind('\n', at) + 1;
+    if (page.compare(line, 6, "duckdb") == 0) continue;
+    const std::string query = page.substr(at, page.find_first_of("\"'\n", at) - at);
+    EXPECT_TRUE(store.database().prepare(query).step()) << query;
+    ++queries;
+  }
+  EXPECT_GE(queries, 2u);
+}
+
+TEST_F(SweepCliTest, MistakesAreOneLine) {
+  writeTextFile(folder_ / "bad.json", "{\"scenes\": [\"atrium\"],\n \"maps\": [\"cub\"]}");
+  expectMistake("sweep @/bad.json", 1, "bad.json:2:11: maps[0]");
+  expectMistake("sweep @/none.json", 1, "none.json");
+  expectMistake("sweep @/p.json --shard 3/2", 2, "as in 2/8");
+  expectMistake("sweep @/p.json --quick", 2, "--quick");
+  expectMistake("sweep merge @/p.json -o @/all.db", 1, "p.json");
+  expectMistake("sweep merge -o @/all.db", 2, "name the stores");
+  writeTextFile(folder_ / "text.db", std::string(9000, 'x'));
+  expectMistake("sweep @/p.json --db @/text.db", 1, "name a file that gnomon sweep wrote");
+  expectMistake("sweep @/p.json --db @/no/folder/s.db", 1, "check the path");
+  expectMistake("report @/text.db -o @/x.html", 1, "name a file that gnomon sweep wrote");
+}
+
+}  // namespace
+}  // namespace gnomon
