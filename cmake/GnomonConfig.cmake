@@ -34,6 +34,8 @@ foreach(library IN LISTS gnomon_found)
   foreach(package IN LISTS gnomon_packages_of_${library})
     if(package STREQUAL "embree")
       find_dependency(embree 3)
+    elseif(package STREQUAL "SQLite")
+      find_dependency(SQLite3)
     elseif(package STREQUAL "OpenVDB")
       # It comes with a find module of its own, which stays out of the way of everything else's.
       find_path(OPENVDB_MODULE_DIR FindOpenVDB.cmake

@@ -28,6 +28,8 @@ constexpr double kEstimateShare = 0.5;
 constexpr int kRootSide = 8;
 // What is kept of sizes that were drawn.
 constexpr size_t kMostSizes = 4;
+// And in a size of methods, whose pipelines stay.
+constexpr size_t kMostMethods = 40;
 
 std::string sceneKey(const SetupOptions& setup) {
   SetupOptions scene;
@@ -58,6 +60,13 @@ std::string lightKey(const ViewState& state, const CompareOptions& options) {
   for (const ChosenOption& choice : options.mapOptions.choices())
     key += fmt::format("\n{} {}", choice.option->name(), choice.option->textOf(choice.value));
   return key;
+}
+
+std::string methodKey(const ViewState& state, size_t side) {
+  const ViewSide& asked = state.sides[side];
+  const CompareOptions& options = asked.options;
+  return fmt::format("{} {} {} {} {} {}", state.fog.on, options.maps.front()->name(), options.biases.front()->name,
+                     options.filters.front()->name, asked.integrator, asked.show);
 }
 
 // Whatever pipelines depend on, and what a picture takes.
@@ -198,6 +207,8 @@ std::shared_ptr<ViewPicture> PictureStudio::draw(const PictureRequest& request, 
   picture->mapHalvings = detail.halvings;
   picture->traced = traced_;
   Canvas& canvas = canvasFor(picture->width, picture->height);
+  if (canvas.methods.size() > kMostMethods) canvas = {.used = canvas.used};
+  for (size_t side = 0; side < sideCount(state); ++side) canvas.methods.insert(methodKey(state, side));
   madeAnything_ = canvas.view == nullptr;
   const Sheet first{canvas, state, 0, detail, *picture};
   first.stage("G-buffer", "", [&] { lookFrom(canvas, state, picture->width, picture->height, detail.anew); });

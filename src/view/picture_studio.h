@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace gnomon {
@@ -63,6 +64,7 @@ class PictureStudio {
     std::array<LightAndKey, kSideCount> lights;
     std::optional<FogView> fog;
     std::string fogKey;
+    std::set<std::string> methods;  // that its passes hold pipelines of
     uint64_t used = 0;
 
     void markStale();

@@ -92,8 +92,8 @@ inline constexpr Mistake kMistakes[] = {
     {"render contact --bias-file /dev/zero -o @/a.png", 1, "is a device"},
     {"report @ -o @/page", 2, "the name must end in .html"},
     // Misspelt.
-    {"compar contact", 2, "compar: no such subcommand; did you mean compare? Choose from compare, render,"},
-    {"shadows contact", 2, "shadows: no such subcommand; choose from compare, render,"},
+    {"compar contact", 2, "compar: no such subcommand; did you mean compare? Choose from compare, sweep,"},
+    {"shadows contact", 2, "shadows: no such subcommand; choose from compare, sweep,"},
     {"compare contact --bises none", 2, "--bises: compare has no such flag; did you mean --biases?"},
     {"compare contact --constant-ofset=1", 2, "did you mean --constant-offset?"},
     {"fog grate --sigma_s 1", 2, "did you mean --sigma-s?"},
