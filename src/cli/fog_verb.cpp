@@ -3,6 +3,7 @@
 #include "base/interrupt.h"
 #include "base/suggest.h"
 #include "base/terminal.h"
+#include "cli/choice.h"
 #include "cli/map_flags.h"
 #include "cli/offers.h"
 #include "cli/option_group.h"
@@ -50,6 +51,7 @@ struct FogFlags {
   std::string density, densityAt;
   std::optional<double> densityScale;
   double densityTurn = 0.0;
+  std::string show = "beauty";
   std::optional<int> repeats;
   int frames = 0;
   std::optional<int> firstFrame;
@@ -284,9 +286,13 @@ void tellError(const FogResult& result) {
               relativeRmse(result.inScattered[1], result.inScattered[0]));
 }
 
-void writePicture(const std::filesystem::path& path, const FogResult& result, const ImageF& inScattered) {
+// `show`: of fogPicturesToShow().
+void writePicture(const std::filesystem::path& path, const std::string& show, const FogResult& result,
+                  const ImageF& inScattered) {
   if (path.extension() == ".exr")
     writeFogExr(path, result.view, inScattered);
+  else if (show == "medium")
+    writePng(path, exposed(inScattered, result.mediumExposure));
   else
     writePng(path, exposed(composed(result.view, inScattered), result.exposure));
   say(fmt::format("wrote {}\n", path.string()));
@@ -322,12 +328,12 @@ int runFogVerb(const FogFlags& flags) {
     say(fmt::format("wrote {0}/report.html, results.json and pictures below {0}\n", flags.out));
   } else if (!flags.out.empty()) {
     const std::filesystem::path path = flags.out;
-    writePicture(path, result, result.inScattered.front());
+    writePicture(path, flags.show, result, result.inScattered.front());
     tellError(result);
     if (result.reference) {
       std::filesystem::path beside = path;
       beside.replace_filename(path.stem().string() + ".reference" + path.extension().string());
-      writePicture(beside, result, result.reference->inScattered);
+      writePicture(beside, flags.show, result, result.reference->inScattered);
     }
   }
   if (!result.isComplete) {
@@ -413,6 +419,11 @@ Run addFog(CLI::App* verb) {
         verb->add_option("-o,--out", flags->out,
                          "a picture by the first of --integrators, .exr (cd/m^2) or .png (exposed); or a folder for "
                          "report.html, results.json and all pictures"));
+    offersOneOf(verb->add_option("--show", flags->show,
+                                 "of a .png: surfaces and medium (beauty), or the medium alone at its own exposure")
+                    ->check(oneOf(fogPicturesToShow()))
+                    ->capture_default_str(),
+                fogPicturesToShow());
     offersFiles(verb->add_option("--json", flags->json, "write results.json here"));
   }
   addIntegrationFlags(*verb, *flags);

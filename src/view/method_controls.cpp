@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "lab/compare/render_picture.h"
 #include "lab/core/maps.h"
+#include "lab/fog/fog_pictures.h"
 #include "view/control_kinds.h"
 #include "vsv/volume_parameterization.h"
 

@@ -101,24 +101,22 @@ void addTexelFacts(std::vector<std::string>& facts, const ViewPicture& picture, 
   const double approach = glm::dot(sample.normalW, ray.dir);
   const double plane = approach != 0.0 ? glm::dot(sample.normalW, sample.positionW - ray.origin) / approach : -1.0;
   if (side.depths) {
-    std::string held = "it holds " + metres(static_cast<double>(depthAt(side.depths->first, fitted, place)));
+    const double first = static_cast<double>(depthAt(side.depths->first, fitted, place));
+    const double own = metresFromLight(fitted, sample.positionW);
+    std::string held = "it holds " + metres(first);
     if (side.depths->second)
       held += fmt::format(", then {}", metres(static_cast<double>(depthAt(*side.depths->second, fitted, place))));
+    if (std::isfinite(first))
+      held +=
+          fmt::format("; the pixel is {:.3g} mm {}", 1e3 * std::abs(own - first), own > first ? "behind" : "before");
     facts.push_back(held);
   }
   if (index < side.held.size() && side.held[index].instancePlusOne != 0)
     facts.push_back("it names " +
                     nameOf(picture.traced->scene, {side.held[index].instancePlusOne - 1, side.held[index].triangle}));
-  if (plane > 0.0) {
-    const double at = metresFromLight(fitted, ray.origin + ray.dir * plane);
-    const double held = side.depths ? static_cast<double>(depthAt(side.depths->first, fitted, place)) : at;
-    std::string met = fmt::format("its ray meets the receiver's plane at {:.6g} m", at);
-    if (std::isfinite(held) && held != at)
-      met += fmt::format(", {:.3g} mm {} that", 1e3 * std::abs(at - held), at > held ? "behind" : "before");
-    facts.push_back(met);
-  } else {
-    facts.emplace_back("its ray never meets the receiver's plane");
-  }
+  facts.push_back(plane > 0.0 ? fmt::format("its ray meets the receiver's plane at {:.6g} m",
+                                            metresFromLight(fitted, ray.origin + ray.dir * plane))
+                              : std::string("its ray never meets the receiver's plane"));
   const std::optional<SurfaceHit> hit = picture.traced->tracer.firstHit(ray);
   facts.push_back(hit ? fmt::format("and first {} at {:.6g} m", nameOf(picture.traced->scene, hit->primitive),
                                     metresFromLight(fitted, ray.origin + ray.dir * hit->distance))

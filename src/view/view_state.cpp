@@ -63,15 +63,12 @@ std::string fogCommand(const ViewState& state, int side, const SetupOptions& set
   }
   if (options.cull != CompareOptions().cull) flag("--cull", cullModeName(options.cull));
   if (options.exposure) flag("--exposure", *options.exposure);
+  if (drawn.show == "medium") flag("--show", drawn.show);
   flag("-o", file);
   return line;
 }
 
 }  // namespace
-
-std::vector<std::string> fogPicturesToShow() {
-  return {"beauty", "medium"};
-}
 
 void settleOnMap(CompareOptions& options) {
   const Parameterization& map = *options.maps.front();

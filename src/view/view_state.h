@@ -47,9 +47,6 @@ struct ViewState {
   FogState fog;
 };
 
-// With fog on: beauty (surfaces and medium) and medium (alone, at its own exposure).
-std::vector<std::string> fogPicturesToShow();
-
 // What of a method means nothing on its map gives way to what does.
 void settleOnMap(CompareOptions& options);
 

@@ -165,6 +165,9 @@ TEST(ViewControls, CommandsNameWhatDiffers) {
   set(state, controls, "a.integrator", "march");
   EXPECT_EQ(pictureCommand(state, 0, 64, 64, "p.png"),
             "gnomon fog atrium --size 64 --sigma-s 0.2 --integrators march --steps 64 -o p.png");
+  set(state, controls, "a.show", "medium");
+  EXPECT_EQ(pictureCommand(state, 0, 64, 64, "p.png"),
+            "gnomon fog atrium --size 64 --sigma-s 0.2 --integrators march --steps 64 --show medium -o p.png");
 }
 
 // A light that is moved keeps its name and power; a camera stands where it was put.

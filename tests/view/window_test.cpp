@@ -125,11 +125,12 @@ TEST_F(WindowTest, ItIsUsed) {
 
 TEST_F(WindowTest, FogIsShownAndTurned) {
   expectFine(shell(fmt::format("'{}' scene --density puff --for grate -o puff.vdb", test::inBuild("gnomon"))));
-  const Result played = play("grate --size 96 --vsv-size 128x64x128 --map-size 128",
-                             "key f\nwait-refined\ncommand\npicture a.png\n"
-                             "key tab\nset b.integrator march\nwait-refined\npicture b.png b\nkey tab\n"
-                             "drop puff.vdb\nset fog.density-turn 30\nset a.steps 16\nwait-refined\nexpect-problem\n"
-                             "command\npicture c.png\n");
+  const Result played =
+      play("grate --size 96 --vsv-size 128x64x128 --map-size 128",
+           "key f\nwait-refined\ncommand\npicture a.png\n"
+           "key tab\nset b.integrator march\nwait-refined\npicture b.png b\nkey tab\n"
+           "drop puff.vdb\nset fog.density-turn 30\nset a.steps 16\nset a.show medium\nwait-refined\nexpect-problem\n"
+           "command\npicture c.png\n");
   expectFine(played);
   std::vector<std::string> commands;
   for (size_t from = played.out.find("gnomon fog"); from != std::string::npos;

@@ -59,6 +59,10 @@ Image8 mediaDifferencePicture(const ImageF& measured, const ImageF& reference, c
   return shown;
 }
 
+std::vector<std::string> fogPicturesToShow() {
+  return {"beauty", "medium"};
+}
+
 Image8 cropped(const Image8& image, const WorstPlace& place, int zoom) {
   Image8 crop(place.size * zoom, place.size * zoom, 3);
   for (int y = 0; y < crop.height; ++y)

@@ -4,11 +4,16 @@
 #include "lab/fog/fog_measure.h"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace gnomon {
 
 // R, G, B of surfaces and medium together and medium.R, medium.G, medium.B of the medium alone; cd/m^2.
 void writeFogExr(const std::filesystem::path& path, const FogView& view, const ImageF& inScattered);
+
+// What one picture can show, by name: beauty (surfaces and medium), medium (alone, at its own exposure).
+std::vector<std::string> fogPicturesToShow();
 
 struct FogExposures {
   FogExposure composed;  // of surfaces and medium together
