@@ -208,8 +208,8 @@ DensityFile readDensityFile(const std::string& fileAndGrid) {
   const uint64_t size = bytes.size();
   const ChildLimits limits{.bytes = kBytesAlways + kBytesPerByte * size,
                            .seconds = kSecondsAlways + static_cast<int>(size / kBytesPerSecond)};
-  // The child has a copy of oneTBB's state and none of its threads, one of which may have held the lock under which they
-  // are woken. An arena of one wakes nobody.
+  // The child has a copy of oneTBB's state and none of its threads. One of them may have held the lock under which they
+  // are woken; an arena of one wakes nobody.
   return unpacked(named, runInChild(named.path, limits, [&] {
                     tbb::task_arena alone(1);
                     return alone.execute([&] { return packed(named, std::move(bytes)); });
