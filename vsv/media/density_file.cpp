@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 #include <nanovdb/util/OpenToNanoVDB.h>
+#include <tbb/task_arena.h>
 
 namespace gnomon {
 
@@ -207,7 +208,12 @@ DensityFile readDensityFile(const std::string& fileAndGrid) {
   const uint64_t size = bytes.size();
   const ChildLimits limits{.bytes = kBytesAlways + kBytesPerByte * size,
                            .seconds = kSecondsAlways + static_cast<int>(size / kBytesPerSecond)};
-  return unpacked(named, runInChild(named.path, limits, [&] { return packed(named, std::move(bytes)); }));
+  // The child has a copy of oneTBB's state and none of its threads. One of them may have held the lock under which they
+  // are woken; an arena of one wakes nobody.
+  return unpacked(named, runInChild(named.path, limits, [&] {
+                    tbb::task_arena alone(1);
+                    return alone.execute([&] { return packed(named, std::move(bytes)); });
+                  }));
 }
 
 DensityFile readDensityBytes(const std::string& fileAndGrid, std::string bytes) {
