@@ -157,7 +157,7 @@ TEST_F(WindowTest, XEventsArrive) {
   const std::string person = fmt::format(
       "( for i in $(seq 300); do id=$({0} search --onlyvisible --name Gnomon: 2>/dev/null | head -1); "
       "[ -n \"$id\" ] && break; sleep 0.1; done; {0} windowfocus $id; sleep 0.5; "
-      "{0} key --delay 0 Tab; {0} mousemove 700 300 mousedown 1; sleep 0.2; {0} mousemove 740 320; sleep 0.2; "
+      "{0} key --delay 0 Tab; {0} mousemove 700 300 mousedown 1; sleep 1; {0} mousemove 740 320; sleep 1; "
       "{0} mouseup 1; sleep 0.5; {0} key --delay 0 ctrl+s; {0} key --delay 0 ctrl+q ) &",
       GNOMON_XDOTOOL);
   const Result result = view("lshape --size 128 --map-size 64 --window 1000x700 --session s.json", person);
