@@ -43,7 +43,7 @@ export DISPLAY=:$(cat display)
 {}
 timeout 60 '{}' view {}
 code=$?
-kill $server
+kill $server $person
 exit $code
 )",
                                                 GNOMON_XVFB, before, test::inBuild("gnomon"), arguments));
@@ -154,13 +154,14 @@ TEST_F(WindowTest, ATurntableIsWritten) {
 // Real key presses and a real mouse, through the X server.
 TEST_F(WindowTest, XEventsArrive) {
   // Its title names the scene when the first picture is there. Keys are let go at once, as a quick hand does. Without a
-  // window manager keys go where the pointer is until a window has the focus; the last ones are pressed until it is gone.
+  // window manager keys go where the pointer is until a window has the focus; the last ones are pressed until it is
+  // gone.
   const std::string person = fmt::format(
       "( for i in $(seq 300); do id=$({0} search --onlyvisible --name Gnomon: 2>/dev/null | head -1); "
       "[ -n \"$id\" ] && break; sleep 0.1; done; {0} mousemove 700 300 windowfocus --sync $id; sleep 1; "
       "{0} key --delay 0 Tab; sleep 1; {0} mousedown 1; sleep 1; {0} mousemove 740 320; sleep 1; "
       "{0} mouseup 1; sleep 0.5; for i in $(seq 20); do {0} key --delay 0 ctrl+s; sleep 0.5; {0} key --delay 0 ctrl+q; "
-      "sleep 1; {0} search --name Gnomon: >/dev/null 2>&1 || break; done ) &",
+      "sleep 1; done ) & person=$!",
       GNOMON_XDOTOOL);
   const Result result = view("lshape --size 128 --map-size 64 --window 1000x700 --session s.json", person);
   expectFine(result);
