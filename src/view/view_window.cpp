@@ -175,12 +175,15 @@ void ViewWindow::takePicture() {
     say(newest->problem, true);
     // The files that are shown are those that were.
     if (newest->number != number_) return;
-    if (newest->sceneFailed && goodState_.setup.scene != state_.setup.scene) state_.setup = goodState_.setup;
-    if (goodState_.fog.density != state_.fog.density) {
+    const bool lostScene = newest->sceneFailed && goodState_.setup.scene != state_.setup.scene;
+    const bool lostDensity = goodState_.fog.density != state_.fog.density;
+    if (lostScene) state_.setup = goodState_.setup;
+    if (lostDensity) {
       state_.fog = goodState_.fog;
       noteChange(false);
     }
-    current_ = sessionJson(state_);
+    // What could not be opened is no step to go back to; whatever else is wrong is one, as any change.
+    if (lostScene || lostDensity) current_ = sessionJson(state_);
     return;
   }
   if (newest->number == number_ && !changed_) goodState_ = state_;
