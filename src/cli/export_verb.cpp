@@ -80,11 +80,12 @@ void takeRow(ExportFlags& flags, ExportChoice& choice) {
   const Comparison* comparison = std::get_if<Comparison>(&results);
   if (comparison == nullptr)
     throw UsageError(fmt::format("--results {}: holds media, not shadows on surfaces", flags.results));
-  const int count = static_cast<int>(comparison->rows.size());
+  const std::vector<Row> rows = ranked(comparison->rows);
+  const int count = static_cast<int>(rows.size());
   const int wanted = flags.row.value_or(0);
   if (wanted < 0 || wanted >= count)
     throw UsageError(fmt::format("--row {}: {} has rows 0 to {}", wanted, flags.results, count - 1));
-  const Row& row = comparison->rows[static_cast<size_t>(wanted)];
+  const Row& row = rows[static_cast<size_t>(wanted)];
   flags.map = row.map;
   flags.bias = row.bias;
   flags.filter = row.filter;
@@ -109,7 +110,9 @@ void takeRow(ExportFlags& flags, ExportChoice& choice) {
 }
 
 int writeHeaders(const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder / "gnomon" / "glsl");
+  std::error_code failure;
+  std::filesystem::create_directories(folder / "gnomon" / "glsl", failure);
+  if (failure) throw fileError(folder.string(), "cannot be made a folder", failure.message());
   for (const auto& [name, text] : publicHeaders()) writeTextFile(folder / "gnomon" / "glsl" / name, text);
   say(fmt::format("wrote {}: #include \"gnomon/glsl/visibility.glsl\"\n", (folder / "gnomon" / "glsl").string()));
   return 0;
@@ -182,7 +185,8 @@ Run addExport(CLI::App* verb) {
               ->capture_default_str());
     offersFiles(verb->add_option("--results", flags->results,
                                  "a results.json, or its folder: map, bias, filter and parameters are those of a row"));
-    verb->add_option("--row", flags->row, "which of its rows, counted from 0; default: 0, the best");
+    verb->add_option("--row", flags->row,
+                     "which of its rows, best first as the table has them, counted from 0; default: 0");
     offersFolders(verb->add_option("--headers", flags->headers,
                                    "writes all maps, biases and filters as GLSL headers instead, into gnomon/glsl/ of "
                                    "this folder (docs/glsl.md)"));

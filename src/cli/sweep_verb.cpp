@@ -92,6 +92,12 @@ int sayMerged(const MergeReport& report) {
 int runMerge(const SweepFlags& flags) {
   if (flags.words.size() < 2) throw UsageError("merge: name the stores to merge, as in part*.db");
   if (flags.out.empty()) throw UsageError("merge: name the store to write, with -o all.db");
+  if (!flags.db.empty() || !flags.shard.empty() || !flags.device.empty() || !flags.scenes.empty() ||
+      !flags.biasFiles.empty() || !flags.sbatch.empty() || flags.dryRun || flags.quick || flags.slurm)
+    throw UsageError("merge: takes stores and -o, and no other flag");
+  if (fs::is_regular_file(flags.out))
+    throw fileError(flags.out, "exists",
+                    "write a store of a new name; to keep its rows, name it among the stores to merge, too");
   const std::vector<fs::path> parts(flags.words.begin() + 1, flags.words.end());
   const MergeReport report = mergeStores(parts, flags.out);
   say(fmt::format("wrote {}: {} rows of {} in {} stores{}\n", flags.out, report.added, report.rows, parts.size(),
@@ -208,6 +214,8 @@ int runPlan(const SweepFlags& flags, const Plan& plan, const Axes& axes, const S
     outcome = runSweep(plan, axes, store, options);
   }
   sayOutcome(outcome, path);
+  if (outcome.rows == 0 && outcome.empty == 0 && options.shards == 1 && !outcome.isInterrupted)
+    throw UsageError("the plan has no case: what it excludes is everything");
   if (outcome.isInterrupted) {
     std::fprintf(stderr, "gnomon: interrupted; the same command goes on from here\n");
     return kInterruptedExitCode;

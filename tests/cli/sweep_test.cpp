@@ -91,6 +91,8 @@ TEST_F(SweepCliTest, ShardsMergeAndReportsAreWritten) {
     ASSERT_EQ(run(std::string("sweep @/p.json --shard ") + shard + " --db @/part" + shard[0] + ".db").exitCode, 0);
   const test::Result merged = run("sweep merge @/part1.db @/part2.db -o @/all.db");
   ASSERT_EQ(merged.exitCode, 0) << merged.err;
+  expectMistake("sweep merge @/part1.db -o @/all.db", 1, "all.db: exists");
+  expectMistake("sweep merge @/part1.db -o @/new.db --dry-run", 2, "merge: takes stores and -o");
   const test::Result again = run("sweep @/p.json --db @/all.db");
   EXPECT_NE(again.out.find("; 0 rows of 0 cases measured"), std::string::npos) << again.out;
   EXPECT_NE(again.out.find("witness"), std::string::npos);
