@@ -402,7 +402,7 @@ void ScriptPlayer::play(const ScriptLine& line) {
     w.message_.clear();
     return;
   }
-  if (verb == "wait-frames") return frames(static_cast<int>(number(0)));
+  if (verb == "wait-frames") return frames(std::clamp(static_cast<int>(number(0)), 1, 1000000));
   if (verb == "wait-refined")
     return wait([this] {
       window_.scriptWaits_ = !isRefined();
@@ -428,7 +428,8 @@ void ScriptPlayer::play(const ScriptLine& line) {
     return frames(1);
   }
   if (verb == "resize") {
-    glfwSetWindowSize(w.window_, static_cast<int>(number(0)), static_cast<int>(number(1)));
+    const auto side = [&](size_t word) { return std::clamp(static_cast<int>(number(word)), 64, 16384); };
+    glfwSetWindowSize(w.window_, side(0), side(1));
     return frames(5);
   }
   if (verb == "minimise" || verb == "restore") {

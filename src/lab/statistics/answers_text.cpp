@@ -197,7 +197,7 @@ std::string rankingText(const Answers& answers, size_t width) {
   std::vector<size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
     for (size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-  std::string text;
+  std::string text = fmt::format("by {}, of a case\n", errorName(answers.table.by));
   for (const auto& row : rows) {
     std::string line = fmt::format("{:<{}}", row[0], widths[0]);
     for (size_t c = 1; c < row.size(); ++c) line += fmt::format("  {:>{}}", row[c], widths[c]);
@@ -211,16 +211,16 @@ std::string answersCsv(const Answers& answers) {
   for (const char* name : {"mean", "median", "p95"}) text += fmt::format(",{0},{0}_lower,{0}_upper", name);
   text +=
       ",worst,mean_all_wrong,mean_all_wrong_lower,mean_all_wrong_upper,mean_bias_error,mean_bias_error_lower,"
-      "mean_bias_error_upper,texels,build_ms,shade_ms,frame_ms\n";
+      "mean_bias_error_upper,texels,build_ms,shade_ms,frame_ms,ranked_by\n";
   for (const Subset& subset : answers.subsets)
     for (const MethodAnswer& answer : subset.methods)
-      text += fmt::format("{},{},{},{},{},{},{},{},{:.9g},{},{},{:.9g},{},{},{}\n",
+      text += fmt::format("{},{},{},{},{},{},{},{},{:.9g},{},{},{:.9g},{},{},{},{}\n",
                           csvText(nameOf(answers.table, subset, 0)), csvText(nameOf(answers.table, subset, 1)),
                           nameOf(answers.table, subset, 2), csvText(answers.table.methods[answer.method]),
                           answer.error.count, csvEstimate(answer.error.mean), csvEstimate(answer.error.median),
                           csvEstimate(answer.error.p95), answer.error.worst, csvEstimate(answer.allWrong),
                           csvEstimate(answer.biasError), answer.texels, csvNumber(answer.buildMs),
-                          csvNumber(answer.shadeMs), csvNumber(answer.frameMs));
+                          csvNumber(answer.shadeMs), csvNumber(answer.frameMs), errorName(answers.table.by));
   return text;
 }
 
