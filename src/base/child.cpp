@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/process_memory.h"
+#include "base/sandbox.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -17,7 +19,6 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <new>
 
@@ -27,13 +28,7 @@ namespace gnomon {
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kLimitsMemory = false;
-#elif defined(__has_feature)
-constexpr bool kLimitsMemory = !__has_feature(address_sanitizer);
-#else
-constexpr bool kLimitsMemory = true;
-#endif
+constexpr bool kLimitsMemory = !kHasSanitizers;
 
 // The first byte of what the child hands over.
 enum class Outcome : char { Done = 'D', Failed = 'F', OutOfMemory = 'M' };
@@ -43,15 +38,6 @@ void limit(__rlimit_resource resource, rlim_t soft) {
   ::getrlimit(resource, &both);
   both.rlim_cur = std::min(soft, both.rlim_cur);
   ::setrlimit(resource, &both);
-}
-
-uint64_t addressSpace() {
-  unsigned long long pages = 0;
-  if (std::FILE* file = std::fopen("/proc/self/statm", "re")) {
-    if (std::fscanf(file, "%llu", &pages) != 1) pages = 0;
-    std::fclose(file);
-  }
-  return pages * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 bool writeAll(int descriptor, const char* bytes, size_t size) {
@@ -78,7 +64,8 @@ bool writeAll(int descriptor, const char* bytes, size_t size) {
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(limits.seconds));
-  if (kLimitsMemory) limit(RLIMIT_AS, addressSpace() + limits.bytes);
+  if (kLimitsMemory) limit(RLIMIT_AS, processMemory().addressSpace + limits.bytes);
+  if (!limits.usesFiles) enterSandbox(result);  // where there is none, the limits hold still
   try {
     handOver(result, Outcome::Done, work());
   } catch (const std::bad_alloc&) {

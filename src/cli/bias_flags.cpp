@@ -85,17 +85,19 @@ std::string knobNames(const BiasMethod& method) {
   return names;
 }
 
-// NAME=VALUE: of every file that has such a knob. VALUE alone: of every file, each of which must have one knob.
-void setUserKnob(const std::string& text, CompareOptions& options) {
+}  // namespace
+
+void setUserKnob(const std::string& text, const std::vector<std::shared_ptr<const UserBias>>& users,
+                 std::vector<KnobValue>& knobs) {
   const size_t equals = text.find('=');
   const bool named = equals != std::string::npos;
   const std::string name = named ? text.substr(0, equals) : "";
   const float value = parseKnobValue(text, named ? text.substr(equals + 1) : text);
   bool found = false;
   std::string known;
-  for (const auto& user : options.userBiases) {
+  for (const auto& user : users) {
     const BiasMethod& method = user->method;
-    if (method.knobs.empty() && (!named || options.userBiases.size() == 1))
+    if (method.knobs.empty() && (!named || users.size() == 1))
       throw UsageError(
           fmt::format("--bias-file-knob {}: {} has no parameter; declare one in it with //! knob:", text, user->path));
     if (!named && method.knobs.size() > 1)
@@ -105,12 +107,26 @@ void setUserKnob(const std::string& text, CompareOptions& options) {
     known += (known.empty() || method.knobs.empty() ? "" : ", ") + knobNames(method);
     for (const Knob& knob : method.knobs) {
       if (named && name != knob.name) continue;
-      options.knobs.push_back({&knob, checkedKnob("--bias-file-knob " + std::string(knob.name), knob, value)});
+      knobs.push_back({&knob, checkedKnob("--bias-file-knob " + std::string(knob.name), knob, value)});
       found = true;
     }
   }
   if (!found)
     throw UsageError(fmt::format("--bias-file-knob {}: no such parameter; {}", text, chooseFrom(name, known)));
+}
+
+namespace {
+
+// As --biases has them; a file that it does not name comes last.
+void orderAsNamed(const BiasFlags& flags, CompareOptions& options) {
+  std::vector<std::string> words;
+  std::istringstream text(flags.biases);
+  for (std::string word; std::getline(text, word, ',');) words.push_back(word);
+  const auto place = [&](const BiasMethod* bias) {
+    const auto named = std::ranges::find(words, bias->name);
+    return bias->user != nullptr || named != words.end() ? named : std::ranges::find(words, "all");
+  };
+  std::ranges::stable_sort(options.biases, {}, place);
 }
 
 // Those of all --bias-file, after the others.
@@ -124,7 +140,7 @@ void addUserBiases(const BiasFlags& flags, CompareOptions& options) {
     options.biases.push_back(&method);
   }
   if (flags.biasFiles.empty() && !flags.biasFileKnobs.empty()) throw UsageError("--bias-file-knob needs a --bias-file");
-  for (const std::string& text : flags.biasFileKnobs) setUserKnob(text, options);
+  for (const std::string& text : flags.biasFileKnobs) setUserKnob(text, options.userBiases, options.knobs);
 }
 
 }  // namespace
@@ -144,9 +160,10 @@ void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases) {
               fmt::format("comma-separated, or all: {}. witness has no parameter, and render draws with it", biases))
           ->capture_default_str(),
       namesOf(biasMethods()));
-  offersFiles(
-      verb.add_option("--bias-file", flags.biasFiles,
-                      "GLSL file with your own bias, scored as one more row (docs/add_a_bias.md); may be repeated"));
+  offersFiles(verb.add_option(
+      "--bias-file", flags.biasFiles,
+      "GLSL file with your own bias (docs/add_a_bias.md): compare scores it beside the others and takes several; "
+      "render and view draw it in place of the default"));
   verb.add_option(
           "--bias-file-knob", flags.biasFileKnobs,
           "NAME=VALUE: a parameter of your bias, in its unit (VALUE alone if it has only one); default: the file's; "
@@ -182,6 +199,7 @@ void chooseBiases(const BiasFlags& flags, CompareOptions& options) {
     if (found != flags.knobs.end()) options.knobs.push_back({&knob, checkedKnob(found->first, knob, found->second)});
   });
   addUserBiases(flags, options);
+  orderAsNamed(flags, options);
 }
 
 }  // namespace gnomon

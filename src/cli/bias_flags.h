@@ -25,6 +25,11 @@ struct BiasFlags {
 // --biases, --bias-file, --bias-file-knob, --filters, --epsilon-at, and a flag for each knob.
 void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases);
 
+// A word of --bias-file-knob. NAME=VALUE: of every bias that has such a parameter; VALUE alone: of every one, each of
+// which must have one parameter. Throws UsageError.
+void setUserKnob(const std::string& text, const std::vector<std::shared_ptr<const UserBias>>& users,
+                 std::vector<KnobValue>& knobs);
+
 // Sets the options' biases, knobs and filters. Throws UsageError.
 void chooseBiases(const BiasFlags& flags, CompareOptions& options);
 

@@ -68,6 +68,7 @@ int runCompare(const CompareFlags& flags) {
       flags.out,
       "name a folder without such an ending (--json FILE writes the numbers alone, gnomon render one picture)");
   if (!flags.json.empty()) checkOutput(flags.json);
+  const InterruptGuard guard;  // before there is a folder that must not stay
   ResultFolder folder(flags.out, "results.json");
   options.outDir = folder.aside();
   if (!flags.out.empty()) preloadImages();
@@ -83,7 +84,6 @@ int runCompare(const CompareFlags& flags) {
   unused.tellUnless(!flags.untilError.empty(), "--until-map-size", "it is of --until-error");
   unused.tellUnless(!flags.out.empty(), "--exposure", "it is of the pictures, which -o writes");
   for (const Threshold& threshold : thresholds) checkMeansARow(threshold, options);
-  const InterruptGuard guard;
   options.soFar = [&](const Comparison& soFar) {
     if (!flags.out.empty()) writeTextFile(options.outDir / "results.json", resultsJson(session, soFar, commandLine()));
     if (!flags.json.empty() && !isStream(flags.json))

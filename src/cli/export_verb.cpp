@@ -2,15 +2,18 @@
 #include "base/file.h"
 #include "base/suggest.h"
 #include "base/terminal.h"
+#include "cli/bias_flags.h"
 #include "cli/choice.h"
 #include "cli/offers.h"
 #include "cli/option_group.h"
 #include "cli/scene_flags.h"
 #include "cli/typed_command.h"
+#include "cli/unused_flags.h"
 #include "cli/verbs.h"
 #include "lab/export/export_shader.h"
 #include "lab/export/public_headers.h"
 #include "lab/results/results_file.h"
+#include "shadow/user_bias_check.h"
 
 #include <algorithm>
 #include <memory>
@@ -24,8 +27,11 @@ namespace gnomon {
 namespace {
 
 struct ExportFlags {
+  const CLI::App* verb = nullptr;
   SetupOptions setup;
   std::string map = "cube", bias = kDefaultBias, filter = "none", language = "glsl";
+  std::string biasFile;
+  std::vector<std::string> biasFileKnobs;
   std::string cubeDepth = "hyperbolic";
   int cascades = 1;
   int side = 1024;
@@ -73,9 +79,12 @@ void takeKnobs(const char* owner, const std::vector<Knob>& knobs, const ExportFl
   }
 }
 
-// The map, bias, filter and parameters of a row of results.json.
-void takeRow(ExportFlags& flags, ExportChoice& choice) {
+// The map, bias, filter and parameters of a row of results.json. `user`: of --bias-file, or null.
+void takeRow(ExportFlags& flags, ExportChoice& choice, const UserBias* user) {
   const std::filesystem::path given = flags.results;
+  if (!std::filesystem::is_directory(given) && given.filename() != "results.json")
+    throw fileError(flags.results, std::filesystem::exists(given) ? "is no results.json" : "does not exist",
+                    "name a folder that gnomon compare -o wrote; of a sweep's store, run the command of a row with -o");
   const Results results = readResults(std::filesystem::is_directory(given) ? given : given.parent_path());
   const Comparison* comparison = std::get_if<Comparison>(&results);
   if (comparison == nullptr)
@@ -86,6 +95,15 @@ void takeRow(ExportFlags& flags, ExportChoice& choice) {
   if (wanted < 0 || wanted >= count)
     throw UsageError(fmt::format("--row {}: {} has rows 0 to {}", wanted, flags.results, count - 1));
   const Row& row = rows[static_cast<size_t>(wanted)];
+  const bool isOwn = std::ranges::none_of(biasMethods(), [&](const BiasMethod& one) { return row.bias == one.name; });
+  if (isOwn && user == nullptr)
+    throw UsageError(
+        fmt::format("--row {} is of a bias of your own, {}: give its file with --bias-file", wanted, row.bias));
+  if (isOwn && user->name != row.bias)
+    throw UsageError(fmt::format("--bias-file {} holds the bias {}, and --row {} is of {}; give that one's file",
+                                 flags.biasFile, user->name, wanted, row.bias));
+  if (!isOwn && user != nullptr)
+    throw UsageError(fmt::format("--bias-file and --results: row {} is of {}, which is Gnomon's", wanted, row.bias));
   flags.map = row.map;
   flags.bias = row.bias;
   flags.filter = row.filter;
@@ -93,7 +111,7 @@ void takeRow(ExportFlags& flags, ExportChoice& choice) {
   if (const std::string depth = paramText(row.params, "cube_depth"); !depth.empty()) flags.cubeDepth = depth;
   if (row.map == "directional") flags.cascades = row.layers;
   choice.map.name = row.map;
-  const BiasMethod& bias = biasNamed(row.bias);
+  const BiasMethod& bias = isOwn ? user->method : biasNamed(row.bias);
   const Filter& filter = filterNamed(row.filter);
   for (const Param& param : row.params) {
     const auto* number = std::get_if<double>(&param.value);
@@ -118,20 +136,69 @@ int writeHeaders(const std::filesystem::path& folder) {
   return 0;
 }
 
+// What the headers hold is all there is.
+void refuseAllBesideHeaders(const ExportFlags& flags) {
+  const UnusedFlags unused(*flags.verb);
+  for (const CLI::Option* option : flags.verb->get_options())
+    if (const std::string name = option->get_name(); name != "--headers" && name != "--help")
+      unused.refuseUnless(false, name, "--headers writes all maps, biases and filters, for any scene");
+}
+
+// What belongs to another map, bias or filter than the chosen one, or to a scene.
+void refuseUnusedFlags(const ExportFlags& flags, const ExportChoice& choice) {
+  const UnusedFlags unused(*flags.verb);
+  unused.refuseUnless(flags.map == "cube", "--cube-depth", fmt::format("the map {} has no such option", flags.map));
+  unused.refuseUnless(flags.map == "directional", "--cascades",
+                      fmt::format("the map {} has no such option", flags.map));
+  const bool isOwn = choice.bias->user != nullptr;
+  unused.refuseUnless(!isOwn, "--bias", "--bias-file is exported instead");
+  unused.refuseUnless(isOwn, "--bias-file-knob", "it is for --bias-file");
+  const std::string shared = choice.bias->sharesKnobsWith != nullptr ? choice.bias->sharesKnobsWith : "";
+  for (const BiasMethod& method : biasMethods())
+    for (const Knob& knob : method.knobs)
+      unused.refuseUnless(std::string_view(method.name) == choice.bias->name || method.name == shared,
+                          knobFlag(method.name, knob), fmt::format("the bias is {}", choice.bias->name));
+  for (const Filter& filter : filters())
+    for (const Knob& knob : filter.knobs)
+      unused.refuseUnless(filter.name == flags.filter, knobFlag(filter.name, knob),
+                          fmt::format("the filter is {}", flags.filter));
+  for (const BiasChoice* one : biasChoices())
+    unused.refuseUnless(std::ranges::find(choice.bias->choices, one) != choice.bias->choices.end(), one->flag(),
+                        fmt::format("the bias {} has no such choice", choice.bias->name));
+  unused.refuseUnless(false, "--solids", "no exported code depends on which meshes are solids");
+  for (const char* flag : {"--scene-index", "--allow-path"})
+    unused.refuseUnless(!flags.setup.scene.empty(), flag, "no SCENE is given");
+}
+
+std::shared_ptr<const UserBias> userBiasOf(const ExportFlags& flags) {
+  if (flags.biasFile.empty()) return nullptr;
+  std::shared_ptr<const UserBias> user = loadUserBias(flags.biasFile);
+  checkUserBias(*user);
+  return user;
+}
+
 int runExport(ExportFlags flags) {
-  if (!flags.headers.empty()) return writeHeaders(flags.headers);
+  if (!flags.headers.empty()) {
+    refuseAllBesideHeaders(flags);
+    return writeHeaders(flags.headers);
+  }
   ExportChoice choice;
   for (const BiasChoice* one : biasChoices()) choice.choices.*one->member = one->parse(flags.choices.at(one->flag()));
+  const std::shared_ptr<const UserBias> user = userBiasOf(flags);
   if (!flags.results.empty()) {
     for (const CLI::Option* option : flags.ofRow)
-      if (option->count() > 0)
+      if (option->count() > 0 && option->get_name() != "--bias-file")
         throw UsageError(fmt::format("{} and --results: the row of the results has it already", option->get_name()));
-    takeRow(flags, choice);
+    takeRow(flags, choice, user.get());
   } else if (flags.row) {
     throw UsageError("--row needs --results");
   }
-  choice.bias = &biasNamed(flags.bias);
+  choice.bias = user ? &user->method : &biasNamed(flags.bias);
   choice.filter = &filterNamed(flags.filter);
+  refuseUnusedFlags(flags, choice);
+  std::vector<KnobValue> userKnobs;
+  for (const std::string& text : flags.biasFileKnobs) setUserKnob(text, {user}, userKnobs);
+  for (const KnobValue& one : userKnobs) choice.knobs[one.knob] = one.value;
   choice.map = exportedMap(flags.map, flags.cubeDepth == "radial", flags.cascades);
   choice.map.side = flags.side;
   takeKnobs(choice.bias->sharesKnobsWith != nullptr ? choice.bias->sharesKnobsWith : choice.bias->name,
@@ -150,6 +217,7 @@ int runExport(ExportFlags flags) {
 
 Run addExport(CLI::App* verb) {
   auto flags = std::make_shared<ExportFlags>();
+  flags->verb = verb;
   addSceneFileFlags(*verb, flags->setup);
   {
     const OptionGroup group(*verb, "What to export");
@@ -166,6 +234,12 @@ Run addExport(CLI::App* verb) {
     offersOneOf(
         ofRow(verb->add_option("--bias", flags->bias, "by its name in `gnomon compare --help`")->capture_default_str()),
         biases);
+    offersFiles(ofRow(verb->add_option("--bias-file", flags->biasFile,
+                                       "GLSL file with your own bias, exported instead (docs/add_a_bias.md)")));
+    ofRow(verb->add_option("--bias-file-knob", flags->biasFileKnobs,
+                           "NAME=VALUE: a parameter of your bias, in its unit (VALUE alone if it has only one); may be "
+                           "repeated")
+              ->allow_extra_args(false));
     offersOneOf(
         ofRow(verb->add_option("--filter", flags->filter, "none, bilinear or jitter4x4")->capture_default_str()),
         names);

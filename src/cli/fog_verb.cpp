@@ -307,12 +307,12 @@ int runFogVerb(const FogFlags& flags) {
     throw UsageError(fmt::format("-o {}: --truth writes two pictures; name a file or a folder", flags.out));
   for (const std::string& file : {isFolder ? "" : flags.out, flags.json})
     if (!file.empty()) checkOutput(file);
+  const InterruptGuard guard;  // before there is a folder that must not stay
   ResultFolder folder(isFolder ? flags.out : "", "results.json");
   const Session session = openSession(flags.scene);
   FogOptions options = fogOptions(flags, session.scene().originW);
   tellUnusedFlags(flags, options);
   tellStandingLights(flags, options, session);
-  const InterruptGuard guard;
   options.outDir = folder.aside();
   FogResult result = runFog(session, options);
   result.files = folder.files();

@@ -8,6 +8,7 @@
 #include "base/suggest.h"
 #include "base/terminal.h"
 #include "cli/memory_limit.h"
+#include "cli/output_flags.h"
 #include "cli/typed_command.h"
 #include "cli/verbs.h"
 #include "cli/version.h"
@@ -116,12 +117,14 @@ int parseAndRun(int argc, char** argv) {
   }
   const auto given = std::ranges::find_if(runs, isGiven);
   GNOMON_CHECK(given != runs.end());  // require_subcommand saw to it
+  refuseToWriteOverInputs(*given->first);
   return given->second();
 }
 
 // Whatever a library or a file put into a message: one line.
 int complain(const char* message, int exitCode) {
-  std::fprintf(stderr, "gnomon: %s\n", oneLine(message).c_str());
+  constexpr std::string_view kName = "gnomon: ";
+  std::fprintf(stderr, "%s%s\n", kName.data(), oneLine(message, kLongestMessage - kName.size()).c_str());
   return exitCode;
 }
 
@@ -131,7 +134,7 @@ int runAndComplain(int argc, char** argv) {
     finishStandardOutput();
     return exitCode;
   } catch (const UsageError& error) {
-    return complain(error.what(), 2);
+    return complain(printable(error.what()).c_str(), 2);  // ours: a newline is a name's
   } catch (const Interrupted&) {
     return complain("interrupted before there was anything to write", kInterruptedExitCode);
   } catch (const std::bad_alloc&) {

@@ -13,4 +13,7 @@ namespace gnomon {
 // standard output, and there is no such folder.
 void checkFolderName(const std::string& out, const std::string& remedy);
 
+// Throws UsageError where a flag that names a file to write names what this run reads, or what another flag writes.
+void refuseToWriteOverInputs(const CLI::App& verb);
+
 }  // namespace gnomon

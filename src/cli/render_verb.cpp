@@ -46,10 +46,11 @@ int runRender(const RenderFlags& flags) {
     throw UsageError(fmt::format("-o {}: the name must end in .png or .exr", flags.out));
   refuseAllLights(flags.scene, "render");
   CompareOptions options = compareOptions(methodOf(flags));
-  if (options.biases.size() > 1 && !options.userBiases.empty())
-    options.biases.erase(options.biases.begin(), options.biases.end() - 1);  // a file given is the bias meant
+  if (flags.biases->count() == 0 && !options.userBiases.empty())
+    options.biases.erase(options.biases.begin());  // a file given is the bias meant, not the default
   if (options.maps.size() != 1 || options.biases.size() != 1 || options.filters.size() != 1)
-    throw UsageError("render draws one configuration: give one --maps, one --biases and one --filters");
+    throw UsageError(
+        "render draws one configuration: give one --maps, one bias (--biases or --bias-file) and one --filters");
   checkOutput(flags.out);
   if (extension == ".exr") preloadImages();
   const Session session = openSession(flags.scene);

@@ -47,7 +47,6 @@ int runFolderReport(const ReportFlags& flags) {
                     "--scene, --map and --map-size are for",
                     flags.source));
   if (flags.out.empty()) throw UsageError("give -o FILE.html");
-  checkOutput(flags.out);
   writeTextFile(flags.out, reportHtml(flags.source));
   say(fmt::format("wrote {}\n", flags.out));
   return 0;
@@ -63,10 +62,8 @@ int runStoreReport(ReportFlags flags) {
                             {flags.latex, answersLatex},
                             {flags.json, answersJson},
                             {flags.markdown, answersMarkdown}};
-  for (const Output& output : outputs)
-    if (!output.path.empty()) checkOutput(output.path);
   if (!flags.by.empty()) flags.filter.by = parseErrorBy(flags.by);
-  const Answers answers = answersOf(Store(flags.source, sql::Open::Existing), flags.filter);
+  const Answers answers = answersOf(Store(flags.source, sql::Open::ReadOnly), flags.filter);
   bool wrote = false;
   for (const Output& output : outputs) {
     if (output.path.empty()) continue;
@@ -80,9 +77,22 @@ int runStoreReport(ReportFlags flags) {
 
 int runReport(const ReportFlags& flags) {
   checkPageName(flags.out);
+  for (const std::string& file : {flags.out, flags.csv, flags.latex, flags.json, flags.markdown})
+    if (!file.empty()) checkOutput(file);
+  constexpr const char* kRemedy =
+      "name a folder that gnomon compare -o or gnomon fog -o wrote, or a store of gnomon sweep";
+  const std::filesystem::path source = flags.source;
   std::error_code failure;
-  const bool isStore = std::filesystem::is_regular_file(flags.source, failure);
-  return isStore ? runStoreReport(flags) : runFolderReport(flags);
+  const std::filesystem::file_status status = std::filesystem::status(source, failure);
+  if (std::filesystem::is_directory(status)) return runFolderReport(flags);
+  if (!std::filesystem::exists(status)) {
+    const bool isAbsent = status.type() == std::filesystem::file_type::not_found;
+    throw fileError(flags.source, isAbsent ? "does not exist" : failure.message(), kRemedy);
+  }
+  if (!std::filesystem::is_regular_file(status))
+    throw fileError(flags.source, "is a device or a pipe, and no file", kRemedy);
+  if (source.extension() == ".json") throw fileError(flags.source, "is no store", "name its folder");
+  return runStoreReport(flags);
 }
 
 Run addReport(CLI::App* verb) {

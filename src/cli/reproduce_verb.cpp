@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/file.h"
+#include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/terminal.h"
 #include "cli/offers.h"
@@ -29,6 +30,7 @@ struct ReproduceFlags {
 int runReproduce(const ReproduceFlags& flags) {
   ReproduceOptions options = flags.options;
   checkFolderName(flags.out, "name a folder without such an ending");
+  const InterruptGuard guard;  // before there is a folder that must not stay
   ResultFolder folder(flags.out, "results.json");
   options.outDir = folder.aside();
   const Reproduction reproduction = reproduce({.name = flags.device}, options);

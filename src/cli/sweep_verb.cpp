@@ -6,6 +6,7 @@
 #include "base/terminal.h"
 #include "cli/offers.h"
 #include "cli/option_group.h"
+#include "cli/unused_flags.h"
 #include "cli/verbs.h"
 #include "cli/version.h"
 #include "cli/wrap.h"
@@ -31,8 +32,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBenchmark = "benchmark";
 constexpr const char* kMerge = "merge";
+constexpr const char* kNoCase = "the plan has no case: what it excludes is everything";
 
 struct SweepFlags {
+  const CLI::App* verb = nullptr;
   std::vector<std::string> words;  // PLAN, or benchmark, or merge PART...
   std::string db, out, shard, device;
   std::vector<std::string> scenes, biasFiles, sbatch;
@@ -92,9 +95,6 @@ int sayMerged(const MergeReport& report) {
 int runMerge(const SweepFlags& flags) {
   if (flags.words.size() < 2) throw UsageError("merge: name the stores to merge, as in part*.db");
   if (flags.out.empty()) throw UsageError("merge: name the store to write, with -o all.db");
-  if (!flags.db.empty() || !flags.shard.empty() || !flags.device.empty() || !flags.scenes.empty() ||
-      !flags.biasFiles.empty() || !flags.sbatch.empty() || flags.dryRun || flags.quick || flags.slurm)
-    throw UsageError("merge: takes stores and -o, and no other flag");
   if (fs::is_regular_file(flags.out))
     throw fileError(flags.out, "exists",
                     "write a store of a new name; to keep its rows, name it among the stores to merge, too");
@@ -107,8 +107,13 @@ int runMerge(const SweepFlags& flags) {
 
 int runDry(const SweepFlags& flags, const Plan& plan, const Axes& axes, const SweepOptions& options) {
   std::unique_ptr<Store> store;
-  if (fs::exists(storeOf(flags))) store = std::make_unique<Store>(storeOf(flags), sql::Open::Existing);
+  // An empty file is a store that is yet to be made, as after a kill at its start.
+  std::error_code failure;
+  const fs::path path = storeOf(flags);
+  if (fs::exists(path) && (!fs::is_regular_file(path) || fs::file_size(path, failure) > 0))
+    store = std::make_unique<Store>(path, sql::Open::Existing);
   const SweepEstimate estimate = estimateSweep(plan, axes, store.get(), options);
+  if (estimate.cases == 0 && options.shards == 1) throw UsageError(kNoCase);
   say(fmt::format(
       "{} scenes, {} views (a camera and a light), {} cases (a map of one size), {} rows (a method and filter)\n",
       estimate.scenes, estimate.views, estimate.cases, estimate.rows));
@@ -167,8 +172,6 @@ int runCollect(const SweepFlags& flags, const std::string& planHash) {
 }
 
 int runSlurm(const SweepFlags& flags, const std::string& planHash) {
-  if (!flags.shard.empty() || flags.dryRun)
-    throw UsageError("--slurm makes shards of its own; leave --shard and --dry-run out");
   if (flags.submission > 0) return runCollect(flags, planHash);
   const SlurmRun run = slurmRunOf(flags, planHash);
   saySubmitted(run, submitToSlurm(run));
@@ -208,20 +211,23 @@ int runPlan(const SweepFlags& flags, const Plan& plan, const Axes& axes, const S
   const InterruptGuard guard;
   if (flags.dryRun) return runDry(flags, plan, axes, options);
   const fs::path path = storeOf(flags);
+  const bool isNew = !fs::exists(path);
   SweepOutcome outcome;
   {
     Store store(path, sql::Open::Create);
     outcome = runSweep(plan, axes, store, options);
   }
+  if (outcome.rows == 0 && outcome.empty == 0 && options.shards == 1 && !outcome.isInterrupted) {
+    if (isNew) fs::remove(path);
+    throw UsageError(kNoCase);
+  }
   sayOutcome(outcome, path);
-  if (outcome.rows == 0 && outcome.empty == 0 && options.shards == 1 && !outcome.isInterrupted)
-    throw UsageError("the plan has no case: what it excludes is everything");
   if (outcome.isInterrupted) {
     std::fprintf(stderr, "gnomon: interrupted; the same command goes on from here\n");
     return kInterruptedExitCode;
   }
   if (options.shards == 1 && outcome.rows > 0 && outcome.elsewhere == 0 && !axes.methods.empty()) {
-    const Answers answers = answersOf(Store(path, sql::Open::Existing), {});
+    const Answers answers = answersOf(Store(path, sql::Open::ReadOnly), {});
     say("\n" + rankingText(answers, terminalWidth()) + howIntervals(answers) + "\n");
     sayOwnPlaces(answers, axes);
     say(fmt::format("\ngnomon report {} -o page.html shows the rest\n", path.string()));
@@ -232,12 +238,26 @@ int runPlan(const SweepFlags& flags, const Plan& plan, const Axes& axes, const S
   return 1;
 }
 
+// Each flag with what it is for.
+void refuseUnusedFlags(const SweepFlags& flags) {
+  const UnusedFlags unused(*flags.verb);
+  const bool isMerge = flags.words.front() == kMerge;
+  for (const char* flag : {"--db", "--shard", "--device", "--scenes", "--bias-file", "--sbatch", "--dry-run", "--quick",
+                           "--slurm", "--shards", "--slurm-collect"})
+    unused.refuseUnless(!isMerge, flag, "merge takes stores and -o, and no other flag");
+  unused.refuseUnless(isMerge, "--out", "only merge writes a file of that name; the store is --db FILE");
+  unused.refuseUnless(isBenchmark(flags), "--quick", "it is for gnomon sweep benchmark");
+  for (const char* flag : {"--shards", "--sbatch", "--slurm-collect"})
+    unused.refuseUnless(flags.slurm, flag, "it is for --slurm; a shard by hand is --shard 2/8");
+  for (const char* flag : {"--shard", "--dry-run"})
+    unused.refuseUnless(!flags.slurm, flag, "--slurm makes shards of its own, and submits them");
+}
+
 int runSweepVerb(const SweepFlags& flags) {
+  refuseUnusedFlags(flags);
   if (flags.words.front() == kMerge) return runMerge(flags);
   if (flags.words.size() > 1)
     throw UsageError(fmt::format("{}: one word too many (see gnomon sweep --help)", flags.words[1]));
-  if (!flags.out.empty()) throw UsageError("-o: only merge writes a file of that name; the store is --db FILE");
-  if (flags.quick && !isBenchmark(flags)) throw UsageError("--quick is for gnomon sweep benchmark");
   SweepOptions options{.device = {.name = flags.device}, .program = programText()};
   if (!flags.shard.empty()) std::tie(options.shard, options.shards) = parseShard(flags.shard);
   const Plan plan = planOf(flags);
@@ -251,6 +271,7 @@ int runSweepVerb(const SweepFlags& flags) {
 
 Run addSweep(CLI::App* verb) {
   auto flags = std::make_shared<SweepFlags>();
+  flags->verb = verb;
   offersFiles(
       verb->add_option("PLAN", flags->words,
                        "a plan (docs/sweep.md); or benchmark, the frozen plan behind docs/findings.md; or merge "

@@ -39,8 +39,7 @@ Run addView(CLI::App* verb) {
       verb->add_option("--picture", flags->picture, "at the end, writes the picture of A as `gnomon render` does"));
   offersFiles(verb->add_option("--json", flags->json, "at the end, writes what was measured: times, latency"));
   verb->add_option("--window", flags->window, "size of the window, WxH pixels")->capture_default_str();
-  verb->add_option("--ui-scale", flags->scale, "of text and controls; default: the display's")
-      ->check(CLI::Range(0.5, 4.0));
+  verb->add_option("--ui-scale", flags->scale, "of text and controls; default: the display's")->check(within(0.5, 4.0));
   return [flags, biases] {
     flags->biasIsGiven = biases->count() > 0;
     return openWindow(*flags);

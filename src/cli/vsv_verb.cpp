@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
+#include "base/interrupt.h"
 #include "base/terminal.h"
 #include "cli/map_flags.h"
 #include "cli/offers.h"
@@ -58,6 +59,7 @@ int runVsv(const VsvFlags& flags) {
   refuseAllLights(flags.scene, "vsv");
   for (const std::string& file : {flags.json, flags.vdb})
     if (!file.empty()) checkOutput(file);
+  const InterruptGuard guard;  // before there is a folder that must not stay
   ResultFolder folder(flags.out, "volume.json");
   const VolumeOptions options = volumeOptions(flags, folder.aside());
   if (!flags.out.empty()) preloadImages();

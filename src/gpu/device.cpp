@@ -63,7 +63,7 @@ bool hasDebugUtils() {
 
 // `next` is what validation needs; null without it.
 VkResult createInstance(bool validation, const void* next, std::vector<const char*> extensions,
-                        Owned<VkInstance, vkDestroyInstance>& instance) {
+                        Owned<VkInstance, destroyInstance>& instance) {
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.pApplicationName = "gnomon";
   application.apiVersion = VK_API_VERSION_1_3;
@@ -75,8 +75,11 @@ VkResult createInstance(bool validation, const void* next, std::vector<const cha
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
   VkInstance handle = VK_NULL_HANDLE;
-  const VkResult result = vkCreateInstance(&info, nullptr, &handle);
-  instance = Owned<VkInstance, vkDestroyInstance>(handle);
+  const VkResult result = [&] {
+    std::unique_lock alone(loaderLists());
+    return vkCreateInstance(&info, nullptr, &handle);
+  }();
+  instance = Owned<VkInstance, destroyInstance>(handle);
   return result;
 }
 
@@ -187,6 +190,7 @@ uint32_t chooseQueueFamily(VkPhysicalDevice device, uint32_t& timestampValidBits
 
 template <typename Function>
 Function load(VkDevice device, const char* name) {
+  std::shared_lock beside(loaderLists());
   return reinterpret_cast<Function>(vkGetDeviceProcAddr(device, name));
 }
 
@@ -268,8 +272,11 @@ struct DeviceBuilder {
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     VkDevice handle = VK_NULL_HANDLE;
-    GNOMON_VK_CHECK(vkCreateDevice(chosen.device, &info, nullptr, &handle));
-    device.device_ = Owned<VkDevice, vkDestroyDevice>(handle);
+    {
+      std::unique_lock alone(loaderLists());
+      GNOMON_VK_CHECK(vkCreateDevice(chosen.device, &info, nullptr, &handle));
+    }
+    device.device_ = Owned<VkDevice, destroyDevice>(handle);
     device.handle_ = handle;
   }
 
@@ -376,11 +383,12 @@ void Device::nameObject(VkObjectType type, uint64_t object, const char* name) co
   info.objectType = type;
   info.objectHandle = object;
   info.pObjectName = name;
+  std::shared_lock beside(loaderLists());
   GNOMON_VK_CHECK(functions_.setObjectName(handle(), &info));
 }
 
 std::vector<DeviceInfo> listDevices() {
-  Owned<VkInstance, vkDestroyInstance> instance;
+  Owned<VkInstance, destroyInstance> instance;
   if (createInstance(false, nullptr, {}, instance) != VK_SUCCESS) return {};
   std::vector<DeviceInfo> devices;
   for (VkPhysicalDevice device : physicalDevices(instance.get())) devices.push_back(describe(device));

@@ -105,11 +105,11 @@ class Device {
   Device();
   struct Messages;
   std::unique_ptr<Messages> messages_;  // first, so that it hears the instance's end
-  Owned<VkInstance, vkDestroyInstance> instance_;
+  Owned<VkInstance, destroyInstance> instance_;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   DeviceInfo info_;
-  Owned<VkDevice, vkDestroyDevice> device_;  // empty where it is borrowed
+  Owned<VkDevice, destroyDevice> device_;  // empty where it is borrowed
   VkDevice handle_ = VK_NULL_HANDLE;
   MemorySource* memorySource_ = nullptr;
   std::unique_ptr<PendingWork> pending_;

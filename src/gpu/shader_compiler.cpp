@@ -155,6 +155,9 @@ std::string errorLines(const std::string& path, const char* log) {
     if (!line.starts_with(kError)) continue;
     line.remove_prefix(kError.size());
     if (line.find(" compilation errors.") != std::string_view::npos) continue;
+    // glslang stops at the first error that is one of syntax or type, within the #ifdefs that it stands in.
+    if (line.find("'' : compilation terminated") != std::string_view::npos) continue;
+    if (!messages.empty() && line.find("'' : missing #endif") != std::string_view::npos) continue;
     // Of functions that call each other, the next line has the names.
     constexpr std::string_view kLink = "Linking ";
     const bool isCut = line.ends_with(':') && !rest.empty();

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 
+#include <mutex>
 #include <string>
 
 #include <fmt/format.h>
@@ -62,6 +63,21 @@ void throwVulkanError(VkResult result, const char* call) {
   const std::string expression = call;
   throw WorldError(fmt::format("{} failed: {}; {}", expression.substr(0, expression.find('(')), resultName(result),
                                remedyFor(result)));
+}
+
+std::shared_mutex& loaderLists() {
+  static std::shared_mutex lists;
+  return lists;
+}
+
+void destroyInstance(VkInstance instance, const VkAllocationCallbacks* allocator) {
+  std::unique_lock alone(loaderLists());
+  vkDestroyInstance(instance, allocator);
+}
+
+void destroyDevice(VkDevice device, const VkAllocationCallbacks* allocator) {
+  std::unique_lock alone(loaderLists());
+  vkDestroyDevice(device, allocator);
 }
 
 }  // namespace gnomon::gpu

@@ -3,6 +3,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include <shared_mutex>
 #include <utility>
 
 namespace gnomon::gpu {
@@ -15,6 +16,15 @@ void throwVulkanError(VkResult result, const char* call);
     const VkResult gnomonResult = (call);                                                 \
     if (gnomonResult != VK_SUCCESS) ::gnomon::gpu::throwVulkanError(gnomonResult, #call); \
   } while (false)
+
+// The loader looks a device up for some calls (vkSetDebugUtilsObjectNameEXT, vkCreateSwapchainKHR,
+// vkGetDeviceProcAddr) in lists of all instances and devices of the process, and takes no lock for it; on another
+// thread vkDestroyDevice may free what it is looking at (Vulkan-Loader 1.3.239, loader_get_icd_and_device). So those
+// calls are made with this held shared, and what makes or destroys an instance or a device holds it alone.
+std::shared_mutex& loaderLists();
+
+void destroyInstance(VkInstance instance, const VkAllocationCallbacks* allocator);
+void destroyDevice(VkDevice device, const VkAllocationCallbacks* allocator);
 
 // An instance or a device: destroyed by itself.
 template <typename Handle, auto Destroy>

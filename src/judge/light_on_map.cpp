@@ -146,7 +146,12 @@ const Occluders& LightOnMap::occluders(ChannelSet channels) {
   } else {
     occluders_.emplace(channels, map_.createOccluders(view_.device(), fitted(), channels));
   }
-  redraw(channels);
+  try {
+    redraw(channels);
+  } catch (...) {  // what is not drawn is nobody's
+    occluders_.erase(channels);
+    throw;
+  }
   return *occluders_.at(channels);
 }
 

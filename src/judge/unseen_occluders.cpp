@@ -1,5 +1,7 @@
 #include "judge/unseen_occluders.h"
 
+#include "base/check.h"
+
 #include "shared/surface_bias.glsl"
 
 #include <algorithm>
@@ -25,7 +27,11 @@ class Surfaces {
   }
 
  private:
-  uint32_t sheet(const Primitive& p) const { return facts_[buffers_.firstTriangles[p.instance] + p.triangle].sheet; }
+  uint32_t sheet(const Primitive& p) const {
+    const size_t triangle = buffers_.firstTriangles[p.instance] + p.triangle;
+    GNOMON_CHECK_LT(triangle, facts_.size());
+    return facts_[triangle].sheet;
+  }
 
   const SceneBuffers& buffers_;
   std::vector<glsl::TriangleFacts> facts_;

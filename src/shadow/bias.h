@@ -14,6 +14,15 @@ namespace gnomon {
 
 struct UserBias;
 
+// A user's bias, or none, in the key of a pipeline. Its address alone is not enough: when a file is read again, what it
+// was before may make room for it.
+struct UserBiasKey {
+  UserBiasKey(const UserBias* of);
+  const UserBias* bias;
+  uint64_t number;  // UserBias::number; 0: none
+  bool operator==(const UserBiasKey&) const = default;
+};
+
 // A choice among a few ways of a method, or of several: a whole number among BiasParams. Its flag and its line in
 // results derive from it.
 struct BiasChoice {

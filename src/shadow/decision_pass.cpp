@@ -84,7 +84,7 @@ gpu::ComputeProgram DecisionPass::makeProgram(const VariantKey& key) const {
                                                 {.id = 13, .value = static_cast<int32_t>(key.methods.size())}};
   for (size_t i = 0; i < key.methods.size(); ++i)
     constants.push_back({.id = kFirstMethodConstant + static_cast<uint32_t>(i), .value = key.methods[i]});
-  return createLookupProgram(device_, shaderWith(kDecisionShader, key.user), key.user, constants);
+  return createLookupProgram(device_, shaderWith(kDecisionShader, key.user.bias), key.user.bias, constants);
 }
 
 void DecisionPass::record(gpu::Commands& commands, const SceneBuffers& scene, const GBuffer& gbuffer,

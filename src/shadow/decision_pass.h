@@ -49,7 +49,7 @@ class DecisionPass {
   struct VariantKey {
     int32_t mapKind, sliceCount, instanced, channels;
     std::vector<int32_t> methods;
-    const UserBias* user;
+    UserBiasKey user;
     bool operator==(const VariantKey&) const = default;
   };
   gpu::ComputeProgram makeProgram(const VariantKey& key) const;

@@ -89,7 +89,7 @@ void FramePass::createTargets() {
 gpu::GraphicsProgram FramePass::makeProgram(const Key& key) const {
   const gpu::GraphicsDesc desc{.name = "draw frame",
                                .vertex = {"shadow/pull_frame_triangle.vert.glsl", {}},
-                               .fragment = shaderWith("shadow/shade_frame.frag.glsl", key.user),
+                               .fragment = shaderWith("shadow/shade_frame.frag.glsl", key.user.bias),
                                .specializations = {{.id = 0, .value = key.method},
                                                    {.id = 2, .value = key.mapKind},
                                                    {.id = 3, .value = key.sliceCount},
@@ -106,8 +106,8 @@ gpu::GraphicsProgram FramePass::makeProgram(const Key& key) const {
   try {
     return gpu::GraphicsProgram(device_, desc);
   } catch (const WorldError& error) {
-    if (key.user == nullptr) throw;
-    throw WorldError(inUsersWords(error.what(), *key.user));
+    if (key.user.bias == nullptr) throw;
+    throw WorldError(inUsersWords(error.what(), *key.user.bias));
   }
 }
 

@@ -33,7 +33,7 @@ class FramePass {
   // Specialization constants of shade_frame.frag.glsl.
   struct Key {
     int32_t method, mapKind, sliceCount, instanced, channels, filter, tapCount, textured, masked;
-    const UserBias* user;
+    UserBiasKey user;
     bool operator==(const Key&) const = default;
   };
   gpu::GraphicsProgram makeProgram(const Key& key) const;

@@ -2,11 +2,15 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "gpu/glsl_comments.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -110,7 +114,59 @@ void readHeader(UserBias& bias) {
   }
 }
 
+// Calls visit(word, where, line) for each "#word" that is no comment's: `where` is the place of the #.
+template <typename Visit>
+void eachDirective(const std::string& glsl, const Visit& visit) {
+  const std::string code = gpu::blankComments(glsl, gpu::CommentBreaks::Blanked);
+  const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  bool begins = true;  // nothing but blanks since the line began
+  int line = 1;
+  for (size_t i = 0; i < code.size(); ++i) {
+    const char c = code[i], last = i > 0 ? code[i - 1] : '\0';
+    if (begins && c == '#') {
+      const size_t word = std::min(code.find_first_not_of(" \t", i + 1), code.size());
+      size_t end = word;
+      while (end < code.size() && isWord(code[end])) ++end;
+      visit(std::string_view(code).substr(word, end - word), i, line);
+    }
+    const bool breaks = c == '\r' || (c == '\n' && last != '\r');
+    // A line may go on behind a backslash.
+    begins = breaks ? last != '\\' : begins && (c == ' ' || c == '\t' || c == '\n');
+    line += glsl[i] == '\n' ? 1 : 0;
+  }
+}
+
+// #line directives as blanks, so that messages tell the file's own lines; those within comments stay.
+std::string withoutLineDirectives(std::string glsl) {
+  std::vector<size_t> places;
+  eachDirective(glsl, [&](std::string_view, size_t where, int) {
+    const size_t word = glsl.find_first_not_of(" \t", where + 1);
+    if (word == std::string::npos || glsl.compare(word, 4, "line") != 0) return;
+    const size_t number = glsl.find_first_not_of(" \t", word + 4);
+    if (number != std::string::npos && std::isdigit(static_cast<unsigned char>(glsl[number])) != 0)
+      places.push_back(where);
+  });
+  for (size_t i : places)
+    for (; i < glsl.size() && glsl[i] != '\n' && glsl[i] != '\r' && glsl.compare(i, 2, "/*") != 0; ++i) glsl[i] = ' ';
+  return glsl;
+}
+
+// One that is open at the end, or ends what did not begin, would be told of a file of Gnomon's that comes after.
+void checkConditionals(const UserBias& bias) {
+  std::vector<std::pair<std::string, int>> open;  // with its line
+  eachDirective(bias.source, [&](std::string_view word, size_t, int line) {
+    if (word == "if" || word == "ifdef" || word == "ifndef") open.emplace_back(word, line);
+    const bool ends = word == "endif" || word == "else" || word == "elif";
+    if (ends && open.empty()) throw lineError(bias, line, fmt::format("#{} without #if", word), "remove it");
+    if (word == "endif") open.pop_back();
+  });
+  if (!open.empty())
+    throw lineError(bias, open.back().second, fmt::format("#{} has no #endif", open.back().first), "write one");
+}
+
 }  // namespace
+
+UserBiasKey::UserBiasKey(const UserBias* of) : bias(of), number(of != nullptr ? of->number : 0) {}
 
 std::string knobConstant(const std::string& knob) {
   std::string constant = "kUser";
@@ -124,7 +180,9 @@ std::string knobConstant(const std::string& knob) {
 
 gpu::ShaderSource shaderWith(const char* path, const UserBias* bias) {
   if (bias == nullptr) return {path, {}};
-  return {path, {{std::string(kUserShader), bias->source}, {"shared/bias/user_knobs.glsl", bias->knobsGlsl}}};
+  return {path,
+          {{std::string(kUserShader), withoutLineDirectives(bias->source)},
+           {"shared/bias/user_knobs.glsl", bias->knobsGlsl}}};
 }
 
 // The compiler knows the file by the name it takes the place of.
@@ -140,16 +198,21 @@ std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path) 
 }
 
 std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source) {
+  static std::atomic<uint64_t> read{0};
   auto bias = std::make_unique<UserBias>();
+  bias->number = ++read;
   bias->path = path.string();
   bias->source = source;
   bias->name = path.stem().string();
   bias->sentence = "Your own bias: " + bias->path;
   bias->knobSentence = fmt::format("a knob of {}", bias->path);
+  if (source.starts_with("\xef\xbb\xbf"))
+    throw lineError(*bias, 1, "the file begins with a byte-order mark", "save it as UTF-8 without one");
   // The compiler would take it for the end.
   if (const size_t zero = source.find('\0'); zero != std::string::npos)
     throw lineError(*bias, 1 + static_cast<int>(std::count(source.begin(), source.begin() + zero, '\n')), "a zero byte",
                     "write the file as text");
+  checkConditionals(*bias);
   readHeader(*bias);
   bias->knobsGlsl = knobsGlsl(bias->method.knobs);
   for (const BiasMethod& method : biasMethods())

@@ -16,8 +16,6 @@
 #include "gpu/shader_compiler.h"
 #include "shadow/bias.h"
 
-#include "gpu/shader_compiler.h"
-
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -25,7 +23,8 @@
 namespace gnomon {
 
 struct UserBias {
-  std::string path;  // as the user wrote it
+  uint64_t number = 0;  // from 1 on, another for each that this process reads
+  std::string path;     // as the user wrote it
   std::string name, sentence, knobSentence;
   std::array<std::string, glsl::kMostKnobs> knobNames;
   std::string source;     // GLSL

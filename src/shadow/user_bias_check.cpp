@@ -2,6 +2,8 @@
 
 #include "base/child.h"
 #include "base/error.h"
+#include "gpu/glsl_comments.h"
+#include "gpu/program.h"
 #include "gpu/shader_compiler.h"
 
 #include <algorithm>
@@ -20,8 +22,8 @@ namespace gnomon {
 
 namespace {
 
-// glslang takes a third of a second and 30 MiB for the sample.
-constexpr ChildLimits kCompilerLimits{.bytes = 1 << 30, .seconds = 20};
+// glslang takes a third of a second and 30 MiB for the sample. What it makes is kept in the shader cache.
+constexpr ChildLimits kCompilerLimits{.bytes = 1 << 30, .seconds = 20, .usesFiles = true};
 // lavapipe's compiler takes 3 s for an array of 2,000 floats, 14 s for 20,000, more than 100 s for 100,000.
 constexpr uint64_t kMostValues = 4096;
 // Drivers write functions out wherever they are called: of lines that each call the one before twice, lavapipe takes
@@ -35,27 +37,17 @@ struct Token {
 
 // Without comments.
 std::vector<Token> tokensOf(const std::string& glsl) {
+  const std::string code = gpu::blankComments(glsl);
+  const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; };
   std::vector<Token> tokens;
   int line = 1;
-  const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; };
-  for (size_t i = 0; i < glsl.size();) {
-    const size_t begin = i;
-    if (glsl.compare(i, 2, "//") == 0) {
-      i = std::min(glsl.find('\n', i), glsl.size());
-      continue;
-    }
-    if (glsl.compare(i, 2, "/*") == 0) {
-      const size_t end = glsl.find("*/", i + 2);
-      i = end == std::string::npos ? glsl.size() : end + 2;
-    } else if (isWord(glsl[i])) {
-      while (i < glsl.size() && isWord(glsl[i])) ++i;
-      tokens.push_back({glsl.substr(begin, i - begin), line});
-    } else {
-      if (std::isspace(static_cast<unsigned char>(glsl[i])) == 0) tokens.push_back({std::string(1, glsl[i]), line});
-      ++i;
-    }
-    line += static_cast<int>(std::count(glsl.begin() + static_cast<std::ptrdiff_t>(begin),
-                                        glsl.begin() + static_cast<std::ptrdiff_t>(i), '\n'));
+  for (size_t i = 0; i < code.size();) {
+    size_t end = i + 1;
+    if (isWord(code[i]))
+      while (end < code.size() && isWord(code[end])) ++end;
+    if (std::isspace(static_cast<unsigned char>(code[i])) == 0) tokens.push_back({code.substr(i, end - i), line});
+    line += code[i] == '\n' ? 1 : 0;
+    i = end;
   }
   return tokens;
 }
@@ -173,15 +165,34 @@ uint64_t inlinedInstructions(const std::vector<uint32_t>& spirv) {
   return inlined(entry);
 }
 
-int lineOf(const std::string& source, const std::string& word, const char* next) {
+// 0: nowhere. `next`: the word behind it, or null.
+int lineOf(const std::string& source, const std::string& word, const char* next = nullptr) {
   const std::vector<Token> tokens = tokensOf(source);
-  for (size_t i = 0; i + 1 < tokens.size(); ++i)
-    if (tokens[i].text == word && tokens[i + 1].text == next) return tokens[i].line;
+  for (size_t i = 0; i < tokens.size(); ++i)
+    if (tokens[i].text == word && (next == nullptr || (i + 1 < tokens.size() && tokens[i + 1].text == next)))
+      return tokens[i].line;
   return 0;
 }
 
-// Throws where it is about recursion, which glslang finds when it links, and then knows no lines.
+[[noreturn]] void failResource(const UserBias& bias, const std::string& word) {
+  throw WorldError(
+      fmt::format("{}:{}: '{}' is a resource that nobody gives a bias; what it needs beside the map is a "
+                  "parameter (//! knob:) or a constant",
+                  bias.path, std::max(lineOf(bias.source, word), 1), word));
+}
+
+// Buffers, textures and images that Gnomon's own shader does not have.
+void checkResources(const UserBias& bias, const std::vector<uint32_t>& with, const std::vector<uint32_t>& without) {
+  const auto own = gpu::reflect(without, VK_SHADER_STAGE_COMPUTE_BIT).bindings;
+  for (const auto& binding : gpu::reflect(with, VK_SHADER_STAGE_COMPUTE_BIT).bindings)
+    if (std::ranges::none_of(own,
+                             [&](const auto& one) { return one.index == binding.index && one.name == binding.name; }))
+      failResource(bias, binding.name);
+}
+
+// Throws where it is about what glslang finds when it links, and then knows no lines: recursion, push constants.
 void explainLinkError(const UserBias& bias, const std::string& message) {
+  if (message.find("Only one push_constant block") != std::string::npos) failResource(bias, "push_constant");
   constexpr std::string_view kRecursion = "Recursion detected:";
   const size_t at = message.find(kRecursion);
   if (at == std::string::npos) return;
@@ -219,9 +230,10 @@ void checkUserBias(const UserBias& bias) {
   const std::string sizes = runInChild(bias.path, kCompilerLimits, [&] {
     try {
       const std::vector<uint32_t> with = gpu::compileShader(shaderWith(kVisibilityShader, &bias));
-      const uint64_t without = inlinedInstructions(gpu::compileShader(shaderWith(kVisibilityShader, nullptr)));
+      const std::vector<uint32_t> without = gpu::compileShader(shaderWith(kVisibilityShader, nullptr));
+      checkResources(bias, with, without);
       const uint64_t all = inlinedInstructions(with);
-      return fmt::format("{} {}", largestType(with), all - std::min(all, without));
+      return fmt::format("{} {}", largestType(with), all - std::min(all, inlinedInstructions(without)));
     } catch (const WorldError& error) {
       explainLinkError(bias, error.what());
       throw WorldError(inUsersWords(error.what(), bias));

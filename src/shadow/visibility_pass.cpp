@@ -151,8 +151,9 @@ gpu::Binding VisibilityPass::storage(const gpu::Image* image) const {
 
 gpu::ComputeProgram VisibilityPass::makeProgram(const VariantKey& key) const {
   return createLookupProgram(
-      device_, storingAs(ReceiverPicture::shader(shaderWith(kVisibilityShader, key.user), key.receivers), key.stored),
-      key.user,
+      device_,
+      storingAs(ReceiverPicture::shader(shaderWith(kVisibilityShader, key.user.bias), key.receivers), key.stored),
+      key.user.bias,
       {{.id = 0, .value = key.method},
        {.id = 1, .value = key.diagnose},
        {.id = 2, .value = key.mapKind},

@@ -70,7 +70,7 @@ class VisibilityPass {
   // Specialization constants of shade_visibility.comp.glsl, in the order of their ids.
   struct VariantKey {
     int32_t method, diagnose, mapKind, sliceCount, instanced, channels, filter, tapCount, masked, stage, witnessReach;
-    const UserBias* user;
+    UserBiasKey user;
     ReceiverKind receivers;
     VkFormat stored;  // VK_FORMAT_UNDEFINED: in the buffer
     bool operator==(const VariantKey&) const = default;

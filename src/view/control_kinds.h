@@ -26,7 +26,7 @@ void addScene(std::vector<Control>& controls);
 void addLight(std::vector<Control>& controls, const std::shared_ptr<const TracedScene>& traced);
 void addCamera(std::vector<Control>& controls, const std::shared_ptr<const TracedScene>& traced);
 void addExposure(std::vector<Control>& controls);
-// method_controls.cpp: of A or B, whose names begin with `prefix`
-void addSide(std::vector<Control>& controls, size_t side, float sceneScale);
+// method_controls.cpp: of A or B, with the bias files of `state`
+void addSide(std::vector<Control>& controls, size_t side, float sceneScale, const ViewState& state);
 
 }  // namespace gnomon

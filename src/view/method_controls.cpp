@@ -4,6 +4,7 @@
 #include "lab/compare/render_picture.h"
 #include "lab/core/maps.h"
 #include "lab/fog/fog_pictures.h"
+#include "shadow/user_bias_check.h"
 #include "view/control_kinds.h"
 #include "vsv/volume_parameterization.h"
 
@@ -46,10 +47,35 @@ std::vector<std::string> filterNames() {
   return names;
 }
 
+const Knob* knobNamed(const BiasMethod& method, std::string_view name) {
+  const auto found = std::ranges::find_if(method.knobs, [&](const Knob& knob) { return name == knob.name; });
+  return found == method.knobs.end() ? nullptr : &*found;
+}
+
+// What was set of a file's parameters is set of those of the same names in the file as it is now.
+void takeKnobs(KnobChoices& choices, const BiasMethod& before, const BiasMethod& now) {
+  std::vector<KnobValue> kept;
+  for (const KnobValue& given : choices.knobs) {
+    const bool isOld = std::ranges::any_of(before.knobs, [&](const Knob& knob) { return &knob == given.knob; });
+    const Knob* knob = isOld ? knobNamed(now, given.knob->name) : given.knob;
+    if (knob != nullptr && given.value >= knob->lower && given.value <= knob->upper)
+      kept.push_back({knob, given.value});
+  }
+  choices.knobs = std::move(kept);
+}
+
 // A bias of the list, or of a file that the side has; a name that ends in .glsl is read.
-void setBias(CompareOptions& options, const std::string& text) {
+void setBias(CompareOptions& options, const std::string& text, const std::string& control) {
   if (text.ends_with(".glsl")) {
     std::shared_ptr<const UserBias> user = loadUserBias(text);
+    const auto isKnown = [&](const auto& other) { return other->path == user->path && other->source == user->source; };
+    if (const auto known = std::ranges::find_if(options.userBiases, isKnown); known != options.userBiases.end()) {
+      options.biases = {&(*known)->method};
+      return;
+    }
+    checkUserBias(*user);
+    for (const auto& other : options.userBiases)
+      if (other->name == user->name) takeKnobs(options, other->method, user->method);
     std::erase_if(options.userBiases, [&](const auto& other) { return other->name == user->name; });
     options.userBiases.push_back(user);
     options.biases = {&user->method};
@@ -60,6 +86,7 @@ void setBias(CompareOptions& options, const std::string& text) {
       options.biases = {&user->method};
       return;
     }
+  checkChoice(control, text, biasNames());
   options.biases = {&findBias(text)};
 }
 
@@ -85,12 +112,12 @@ void setKnob(KnobChoices& choices, const Knob& knob, float value) {
   choices.knobs.push_back({&knob, value});
 }
 
-Control knobControl(const std::string& owner, const Knob& knob, size_t side, const std::string& prefix,
-                    const std::string& group, float sceneScale) {
+Control knobControl(const std::string& name, const Knob& knob, size_t side, const std::string& group,
+                    float sceneScale) {
   const float usual = knob.defaultFor(sceneScale);
   const float least = std::min(knob.searchLower * (knob.defaultOfSceneScale ? sceneScale : 1.0f), usual);
   const float most = std::max(knob.searchUpper * (knob.defaultOfSceneScale ? sceneScale : 1.0f), 2.0f * usual);
-  Control control{.name = prefix + knobFlag(owner.c_str(), knob).substr(2),
+  Control control{.name = name,
                   .label = knob.name,
                   .group = group,
                   .sentence = knob.sentence,
@@ -114,6 +141,11 @@ Control knobControl(const std::string& owner, const Knob& knob, size_t side, con
             static_cast<float>(numberIn(control.name, text, control.lower, control.upper, control.unit)));
   };
   return control;
+}
+
+// "a.constant-offset"
+std::string knobControlName(const std::string& prefix, const char* owner, const Knob& knob) {
+  return prefix + knobFlag(owner, knob).substr(2);
 }
 
 void addMapControls(std::vector<Control>& controls, size_t side, const std::string& prefix, const std::string& group) {
@@ -187,8 +219,25 @@ void addMapControls(std::vector<Control>& controls, size_t side, const std::stri
   }
 }
 
+// Of the bias file that is chosen.
+void addUserKnobs(std::vector<Control>& controls, size_t side, const std::string& prefix, const std::string& group,
+                  float sceneScale, const CompareOptions& options) {
+  for (const std::shared_ptr<const UserBias>& user : options.userBiases) {
+    if (&user->method != options.biases.front()) continue;
+    for (const Knob& knob : user->method.knobs) {
+      Control control = knobControl(prefix + "knob." + knob.name, knob, side, group, sceneScale);
+      if (control.sentence.empty()) control.sentence = "parameter of " + user->path;
+      // It lives as long as its control.
+      control.applies = [side, user](const ViewState& state) {
+        return !state.fog.on && optionsOf(state, side).biases.front() == &user->method;
+      };
+      controls.push_back(control);
+    }
+  }
+}
+
 void addBiasControls(std::vector<Control>& controls, size_t side, const std::string& prefix, const std::string& group,
-                     float sceneScale) {
+                     float sceneScale, const CompareOptions& options) {
   const auto isLit = [](const ViewState& state) { return !state.fog.on; };
   Control bias{
       .name = prefix + "bias",
@@ -198,10 +247,11 @@ void addBiasControls(std::vector<Control>& controls, size_t side, const std::str
       .kind = Kind::Choice,
       .choices = biasNames()};
   for (const BiasMethod& one : biasMethods()) bias.sentence += fmt::format("\n{}: {}", one.name, one.sentence);
+  for (const std::shared_ptr<const UserBias>& user : options.userBiases) bias.choices.push_back(user->path);
   bias.get = [side](const ViewState& state) { return biasText(optionsOf(state, side)); };
-  bias.set = [side](ViewState& state, const std::string& text) {
+  bias.set = [side, name = bias.name](ViewState& state, const std::string& text) {
     CompareOptions changed = optionsOf(state, side);
-    setBias(changed, text);
+    setBias(changed, text, name);
     if (!changed.maps.front()->supportsBias(*changed.biases.front()))
       throw UsageError(fmt::format("bias {}: a {} map stores no depths for it", text, changed.maps.front()->name()));
     optionsOf(state, side) = changed;
@@ -210,13 +260,14 @@ void addBiasControls(std::vector<Control>& controls, size_t side, const std::str
   controls.push_back(bias);
   for (const BiasMethod& method : biasMethods()) {
     for (const Knob& knob : method.knobs) {
-      Control control = knobControl(method.name, knob, side, prefix, group, sceneScale);
+      Control control = knobControl(knobControlName(prefix, method.name, knob), knob, side, group, sceneScale);
       control.applies = [side, declared = &knob](const ViewState& state) {
         return !state.fog.on && hasKnob(*optionsOf(state, side).biases.front(), *declared);
       };
       controls.push_back(control);
     }
   }
+  addUserKnobs(controls, side, prefix, group, sceneScale, options);
   for (const BiasChoice* choice : biasChoices()) {
     Control control{.name = prefix + choice->flag().substr(2),
                     .label = choice->flag().substr(2),
@@ -255,7 +306,7 @@ void addBiasControls(std::vector<Control>& controls, size_t side, const std::str
   controls.push_back(filter);
   for (const Filter& one : filters()) {
     for (const Knob& knob : one.knobs) {
-      Control control = knobControl(one.name, knob, side, prefix, group, sceneScale);
+      Control control = knobControl(knobControlName(prefix, one.name, knob), knob, side, group, sceneScale);
       control.applies = [side, declared = &one](const ViewState& state) {
         return !state.fog.on && optionsOf(state, side).filters.front() == declared;
       };
@@ -321,11 +372,19 @@ void addShowControls(std::vector<Control>& controls, size_t side, const std::str
 
 }  // namespace
 
-void addSide(std::vector<Control>& controls, size_t side, float sceneScale) {
+std::array<uint64_t, kSideCount> chosenBiasFiles(const ViewState& state) {
+  std::array<uint64_t, kSideCount> numbers{};
+  for (size_t side = 0; side < kSideCount; ++side)
+    for (const auto& user : optionsOf(state, side).userBiases)
+      if (&user->method == optionsOf(state, side).biases.front()) numbers[side] = user->number;
+  return numbers;
+}
+
+void addSide(std::vector<Control>& controls, size_t side, float sceneScale, const ViewState& state) {
   const std::string prefix = side == 0 ? "a." : "b.", group = side == 0 ? "A" : "B";
   addShowControls(controls, side, prefix, group);
   addMapControls(controls, side, prefix, group);
-  addBiasControls(controls, side, prefix, group, sceneScale);
+  addBiasControls(controls, side, prefix, group, sceneScale, optionsOf(state, side));
 }
 
 }  // namespace gnomon

@@ -28,7 +28,7 @@ constexpr double kEstimateShare = 0.5;
 constexpr int kRootSide = 8;
 // What is kept of sizes that were drawn.
 constexpr size_t kMostSizes = 4;
-// And in a size of methods, whose pipelines stay.
+// And of methods, whose pipelines stay, in all of them: a pipeline is one to two MiB of a CPU's code.
 constexpr size_t kMostMethods = 40;
 
 std::string sceneKey(const SetupOptions& setup) {
@@ -207,7 +207,7 @@ std::shared_ptr<ViewPicture> PictureStudio::draw(const PictureRequest& request, 
   picture->mapHalvings = detail.halvings;
   picture->traced = traced_;
   Canvas& canvas = canvasFor(picture->width, picture->height);
-  if (canvas.methods.size() > kMostMethods) canvas = {.used = canvas.used};
+  forgetMethods(canvas);
   for (size_t side = 0; side < sideCount(state); ++side) canvas.methods.insert(methodKey(state, side));
   madeAnything_ = canvas.view == nullptr;
   const Sheet first{canvas, state, 0, detail, *picture};
@@ -299,14 +299,27 @@ void PictureStudio::traceReference(const PictureRequest& request, ViewPicture& p
 
 PictureStudio::Canvas& PictureStudio::canvasFor(int width, int height) {
   const std::pair size(width, height);
-  while (!canvases_.contains(size) && canvases_.size() >= kMostSizes) {
-    const auto oldest =
-        std::ranges::min_element(canvases_, [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
-    canvases_.erase(oldest);
-  }
+  while (!canvases_.contains(size) && canvases_.size() >= kMostSizes) forgetOldestSize();
   Canvas& canvas = canvases_[size];
   canvas.used = ++uses_;
   return canvas;
+}
+
+void PictureStudio::forgetOldestSize() {
+  const auto oldest =
+      std::ranges::min_element(canvases_, [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+  canvases_.erase(oldest);
+}
+
+// The newest two sizes stay: one of them may be the coarse picture that the other is counted by.
+void PictureStudio::forgetMethods(Canvas& drawn) {
+  const auto kept = [&] {
+    size_t count = 0;
+    for (const auto& [size, canvas] : canvases_) count += canvas.methods.size();
+    return count;
+  };
+  while (kept() > kMostMethods && canvases_.size() > 2) forgetOldestSize();
+  if (drawn.methods.size() > kMostMethods / 2) drawn = {.used = drawn.used};
 }
 
 // Where no camera is named, the light may decide where one stands.

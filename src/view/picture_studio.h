@@ -93,6 +93,8 @@ class PictureStudio {
   Detail detailFor(const PictureRequest& request) const;
   void learn(const PictureRequest& request, const ViewPicture& picture);
   Canvas& canvasFor(int width, int height);
+  void forgetOldestSize();
+  void forgetMethods(Canvas& drawn);
   std::string cameraOf(const ViewState& state) const;
   void lookFrom(Canvas& canvas, const ViewState& state, int width, int height, bool anew);
   LightOnMap& lightFor(const Sheet& sheet);

@@ -1,6 +1,7 @@
 #include "view/picture_worker.h"
 
 #include "base/error.h"
+#include "base/process_memory.h"
 #include "view/picture_studio.h"
 
 #include <chrono>
@@ -81,12 +82,14 @@ void PictureWorker::run() {
     const std::lock_guard lock(mutex_);
     return asked_.has_value() || ends_;
   };
+  FreedMemory freed;
   // While the window is being made; what is wrong is told with the first picture.
   try {
     studio = std::make_unique<PictureStudio>(device_);
   } catch (const std::exception&) {
   }
   while (true) {
+    freed.giveBackNowAndThen();
     PictureRequest request;
     {
       std::unique_lock lock(mutex_);

@@ -232,7 +232,10 @@ void Presenter::createSwapchain() {
   info.presentMode = mode_;
   info.clipped = VK_TRUE;
   VkDevice handle = device_->handle();
-  GNOMON_VK_CHECK(vkCreateSwapchainKHR(handle, &info, nullptr, &swapchain_));
+  {
+    std::shared_lock beside(gpu::loaderLists());
+    GNOMON_VK_CHECK(vkCreateSwapchainKHR(handle, &info, nullptr, &swapchain_));
+  }
   uint32_t count = 0;
   GNOMON_VK_CHECK(vkGetSwapchainImagesKHR(handle, swapchain_, &count, nullptr));
   std::vector<VkImage> images(count);

@@ -43,7 +43,7 @@ void outlined(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 color) {
 void ViewWindow::layOut() {
   const ImGuiIO& io = ImGui::GetIO();
   const auto width = static_cast<int>(io.DisplaySize.x), height = static_cast<int>(io.DisplaySize.y);
-  const int status = static_cast<int>(ImGui::GetFrameHeight() + ImGui::GetStyle().WindowPadding.y);
+  const int status = static_cast<int>(statusHeight());
   panelWidth_ = showPanel_ ? std::min(330.0f * scale_, 0.45f * io.DisplaySize.x) : 0.0f;
   const int left = static_cast<int>(panelWidth_);
   canvas_ = {left, 0, std::max(width - left, 1), std::max(height - status, 1)};

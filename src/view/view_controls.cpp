@@ -144,7 +144,7 @@ void addFog(std::vector<Control>& controls, float sceneScale) {
 
 }  // namespace
 
-std::vector<Control> viewControls(const std::shared_ptr<const TracedScene>& traced) {
+std::vector<Control> viewControls(const std::shared_ptr<const TracedScene>& traced, const ViewState& state) {
   const float sceneScale = traced ? computeBounds(traced->scene).diagonal() : 1.0f;
   std::vector<Control> controls;
   addScene(controls);
@@ -152,7 +152,7 @@ std::vector<Control> viewControls(const std::shared_ptr<const TracedScene>& trac
   addCamera(controls, traced);
   addExposure(controls);
   addComparison(controls);
-  for (size_t side = 0; side < kSideCount; ++side) addSide(controls, side, sceneScale);
+  for (size_t side = 0; side < kSideCount; ++side) addSide(controls, side, sceneScale, state);
   addFog(controls, sceneScale);
   return controls;
 }

@@ -33,8 +33,11 @@ struct Control {
   std::function<bool(const ViewState&)> isGiven = [](const ViewState&) { return true; };
 };
 
-// `traced`: the scene that is shown, whose lights and cameras are offered; null where there is none yet.
-std::vector<Control> viewControls(const std::shared_ptr<const TracedScene>& traced);
+// `traced`: the scene that is shown, whose lights and cameras are offered; null where there is none yet. `state`: whose
+// bias files are offered, with the parameters of those that are chosen: "a.knob.NAME".
+std::vector<Control> viewControls(const std::shared_ptr<const TracedScene>& traced, const ViewState& state = {});
+// Two states of one number have the same bias files chosen.
+std::array<uint64_t, kSideCount> chosenBiasFiles(const ViewState& state);
 
 // Throws UsageError, with the nearest name.
 const Control& findControl(const std::vector<Control>& controls, const std::string& name);

@@ -59,7 +59,18 @@ void ViewWindow::redo() {
   });
 }
 
-void ViewWindow::setControl(const std::string& name, const std::string& value) {
+void ViewWindow::remakeControls() {
+  controls_ = viewControls(traced_, state_);
+  controlsFiles_ = chosenBiasFiles(state_);
+}
+
+void ViewWindow::followBiasFiles() {
+  if (chosenBiasFiles(state_) != controlsFiles_) remakeControls();
+}
+
+// By value: a control's own name and choices are gone when controls are made anew.
+void ViewWindow::setControl(std::string name, std::string value) {
+  followBiasFiles();
   const Control& control = findControl(controls_, name);
   ViewState changed = state_;
   control.set(changed, value);
@@ -67,11 +78,15 @@ void ViewWindow::setControl(const std::string& name, const std::string& value) {
   noteChange(false);
 }
 
-std::string ViewWindow::getControl(const std::string& name) const {
+std::string ViewWindow::getControl(std::string name) {
+  followBiasFiles();
   return findControl(controls_, name).get(state_);
 }
 
 void ViewWindow::openFile(const std::string& path) {
+  // A pipe would be waited for.
+  if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
+    throw UsageError(path + ": is no regular file; drop one");
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".gltf" || extension == ".glb") {
     setControl("scene", path);
@@ -99,8 +114,9 @@ void ViewWindow::saveSession(const std::string& path) {
 }
 
 void ViewWindow::writePictureFile(const std::string& path, int side) {
+  if (side == 1 && !state_.split) throw UsageError("B is not shown; turn the split on (`set split on`, or Tab)");
   if (!picture_ || picture_->sides[static_cast<size_t>(side)].image.values.empty())
-    throw WorldError("there is no picture yet");
+    throw WorldError("there is no picture yet; let `wait-refined` come first");
   writePng(path, picture_->sides[static_cast<size_t>(side)].image);
   say("wrote " + path, false);
 }
@@ -113,10 +129,14 @@ std::pair<int, int> ViewWindow::pictureSize() const {
   return {std::max(canvas_.width, 16), std::max(canvas_.height - unfoldedRoom_, 16)};
 }
 
-std::string ViewWindow::statusCommand() const {
+std::vector<std::string> ViewWindow::statusCommands() const {
   const auto [width, height] = pictureSize();
-  if (!state_.split) return pictureCommand(state_, 0, width, height, "picture.png");
-  return pictureCommand(state_, 0, width, height, "a.png") + " && " + pictureCommand(state_, 1, width, height, "b.png");
+  if (!state_.split) return {pictureCommand(state_, 0, width, height, "picture.png")};
+  return {pictureCommand(state_, 0, width, height, "a.png"), pictureCommand(state_, 1, width, height, "b.png")};
+}
+
+std::string ViewWindow::statusCommand() const {
+  return fmt::format("{}", fmt::join(statusCommands(), " && "));
 }
 
 std::string ViewWindow::compareCommandOfSides() const {

@@ -187,13 +187,13 @@ void ViewWindow::handleMouse() {
   });
 }
 
-void ViewWindow::handleKeys() {
+// What was pressed before comes before: of a tap, and not of what is held by now.
+void ViewWindow::handleKeys(const KeyTap& tap) {
   ImGuiIO& io = ImGui::GetIO();
-  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+  const auto pressed = [&](int key) { return tap.key == key; };
   if (io.WantTextInput) return;
-  bool asksForHelp = pressed(GLFW_KEY_F1) || (pressed(GLFW_KEY_SLASH) && io.KeyShift);
-  for (const ImWchar typed : io.InputQueueCharacters)
-    if (typed == '?' && !pressed(GLFW_KEY_SLASH)) asksForHelp = true;
+  // Keyboards have the character in different places.
+  const bool asksForHelp = pressed(GLFW_KEY_F1) || io.InputQueueCharacters.contains('?');
   if (asksForHelp) showKeys_ = !showKeys_;
   if (pressed(GLFW_KEY_ESCAPE)) {
     showKeys_ = false;
@@ -201,8 +201,8 @@ void ViewWindow::handleKeys() {
     message_.clear();
   }
   guarded([&] {
-    if (io.KeyCtrl) {
-      if (pressed(GLFW_KEY_Z)) io.KeyShift ? redo() : undo();
+    if (tap.ctrl) {
+      if (pressed(GLFW_KEY_Z)) tap.shift ? redo() : undo();
       if (pressed(GLFW_KEY_Y)) redo();
       if (pressed(GLFW_KEY_S)) saveSession(options_.session.empty() ? "gnomon-view.json" : options_.session);
       if (pressed(GLFW_KEY_Q)) quits_ = true;
@@ -215,12 +215,12 @@ void ViewWindow::handleKeys() {
     if (pressed(GLFW_KEY_F)) toggle("fog");
     if (pressed(GLFW_KEY_G)) showTimes_ = !showTimes_;
     if (pressed(GLFW_KEY_H)) showPanel_ = !showPanel_;
-    if (pressed(GLFW_KEY_C)) copyCommand(io.KeyShift);
+    if (pressed(GLFW_KEY_C)) copyCommand(tap.shift);
     if (pressed(GLFW_KEY_X)) {
       std::swap(state_.sides[0], state_.sides[1]);
       noteChange(false);
     }
-    const std::string side = io.KeyShift ? "b." : "a.";
+    const std::string side = tap.shift ? "b." : "a.";
     constexpr std::array kShows = {"beauty", "visibility", "truth", "difference", "labels"};
     for (size_t i = 0; i < kShows.size(); ++i)
       if (pressed(GLFW_KEY_1 + static_cast<int>(i))) setControl(side + "show", kShows[i]);
@@ -244,7 +244,7 @@ void ViewWindow::handleKeys() {
       noteChange(false);
     }
     if (pressed(GLFW_KEY_P)) {
-      if (io.KeyShift)
+      if (tap.shift)
         keepFrame_ = redrawKept_ = true;  // this very frame, without the message
       else
         writePictureFile(fmt::format("gnomon-view-{:04}.png", presentedPictures_), 0);
@@ -252,9 +252,9 @@ void ViewWindow::handleKeys() {
     if (pressed(GLFW_KEY_T) && !script_)
       script_ = std::make_unique<ScriptPlayer>(*this, "turntable",
                                                parseScript("turntable", "turntable turntable 48 camera\n"));
-    if (!traced_ || !picture_) return;
+    if (!traced_ || !picture_ || io.KeyCtrl) return;
     float right = 0.0f, forward = 0.0f, upward = 0.0f;
-    const auto held = [](int key) { return ImGui::IsKeyDown(key); };
+    const auto held = [&](int key) { return ImGui::IsKeyDown(key) && !pressedWithModifier_.contains(key); };
     const float metres = 0.15f * traced_->tracer.boundsW().diagonal() * frameSeconds_ * (io.KeyShift ? 4.0f : 1.0f);
     if (held(GLFW_KEY_W)) forward += metres;
     if (held(GLFW_KEY_S)) forward -= metres;

@@ -12,6 +12,7 @@ struct ViewOptions {
   ViewState state;
   std::string device;
   std::string session;             // a file to begin with, and to save to; empty: none
+  bool namesOthers = false;        // the command line has a scene or a bias, too, which a session sets
   std::string script;              // empty: none
   std::string screenshot;          // of the window, at the end; empty: none
   std::string picture;             // of side A, at the end

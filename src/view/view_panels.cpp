@@ -63,6 +63,28 @@ void tooltip(const Control& control, const std::string& value) {
   ImGui::EndTooltip();
 }
 
+// Where a line of text has to end, pixels; all of it where it fits.
+size_t fitting(const std::string& text, float width) {
+  const ImFont& font = *ImGui::GetFont();
+  const char* begin = text.c_str();
+  return static_cast<size_t>(
+      font.CalcWordWrapPositionA(ImGui::GetFontSize() / font.FontSize, begin, begin + text.size(), width) - begin);
+}
+
+std::string shortened(const std::string& text, float width) {
+  const size_t end = fitting(text, width);
+  return end == text.size() ? text : text.substr(0, fitting(text, width - ImGui::CalcTextSize(" ...").x)) + " ...";
+}
+
+// Two lines: one command on both, or two on one each.
+std::vector<std::string> statusLines(const std::vector<std::string>& commands, float width) {
+  if (commands.size() == 2) return {shortened(commands[0], width), shortened(commands[1], width)};
+  const std::string& command = commands.front();
+  const size_t end = fitting(command, width);
+  if (end == command.size()) return {command};
+  return {command.substr(0, end), shortened(command.substr(command.find_first_not_of(' ', end)), width)};
+}
+
 }  // namespace
 
 // A slider, dragged or typed into.
@@ -213,9 +235,13 @@ void ViewWindow::drawTimes() {
   ImGui::End();
 }
 
+float ViewWindow::statusHeight() {
+  return 2.0f * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetStyle().WindowPadding.y;
+}
+
 void ViewWindow::drawStatus() {
   const ImGuiIO& io = ImGui::GetIO();
-  const float height = ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y * 0.5f;
+  const float height = statusHeight();
   ImGui::SetNextWindowPos(ImVec2(0.0f, io.DisplaySize.y - height));
   ImGui::SetNextWindowSize(ImVec2(io.DisplaySize.x, height));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(6.0f, 3.0f));
@@ -230,7 +256,10 @@ void ViewWindow::drawStatus() {
     ImGui::TextColored(kQuiet, "%d x %d, maps 1/%d:", picture_->width, picture_->height, 1 << picture_->mapHalvings);
     ImGui::SameLine();
   }
-  ImGui::TextUnformatted(command.c_str());
+  ImGui::BeginGroup();
+  for (const std::string& line : statusLines(statusCommands(), ImGui::GetContentRegionAvail().x))
+    ImGui::TextUnformatted(line.c_str());
+  ImGui::EndGroup();
   if (ImGui::IsItemHovered()) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(0.8f * io.DisplaySize.x);

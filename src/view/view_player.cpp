@@ -4,22 +4,24 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "base/process_memory.h"
 #include "base/terminal.h"
 #include "lab/fog/fog_motion.h"
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <random>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <imgui.h>
 
 namespace gnomon {
+
+// Of the window, that one line of a script takes.
+constexpr int kMostSteps = 10'000'000;
 
 int keyNamed(const std::string& name) {
   static const std::map<std::string, int> named = {
@@ -57,6 +59,17 @@ void ScriptPlayer::checkPatience() {
     fail(lines_[at_ - 1], fmt::format("no picture in {} s", kPatience.count()));
 }
 
+// Pixels of a picture are somewhere only when there is one; a light has a place only in a scene.
+bool ScriptPlayer::lacksScene(const ScriptLine& line) const {
+  const ViewWindow& w = window_;
+  if (!w.pictureProblem_.empty()) return false;
+  if (line.verb == "move" || line.verb == "drag") return w.place_.rect.width == 0;
+  if (line.verb == "controls") return !w.traced_;
+  if (line.verb != "set" && line.verb != "expect") return false;
+  const auto named = std::ranges::find(w.controls_, line.words[0], &Control::name);
+  return named != w.controls_.end() && named->derived && !w.traced_;
+}
+
 bool ScriptPlayer::step() {
   while (true) {
     if (waiting_) {
@@ -70,14 +83,13 @@ bool ScriptPlayer::step() {
       // A person's window goes on without it.
       return window_.options_.script.empty();
     }
-    // Pixels of a picture are somewhere only when there is one.
-    const bool isOnPicture = lines_[at_].verb == "move" || lines_[at_].verb == "drag";
-    window_.scriptWaits_ = isOnPicture && window_.place_.rect.width == 0 && window_.pictureProblem_.empty();
+    const ScriptLine& line = lines_[at_];
+    window_.scriptWaits_ = lacksScene(line);
     if (window_.scriptWaits_) {
       checkPatience();
       return true;
     }
-    const ScriptLine& line = lines_[at_++];
+    ++at_;
     try {
       play(line);
     } catch (const std::exception& error) {
@@ -112,12 +124,13 @@ void ScriptPlayer::pressKey(const std::string& text, int frames) {
     name = name.substr(std::string(prefix).size());
   }
   if (name == "?") {
-    input.shift = true;
-    name = "/";
+    ImGui::GetIO().AddInputCharacter('?');
+    return wait([frames]() mutable { return frames-- > 0; });
   }
   const int key = keyNamed(name);
-  if (key < 0) throw WorldError(fmt::format("{}: no such key", text));
+  if (key < 0) throw WorldError(fmt::format("{}: no such key; write a letter, a digit, tab, f1, left, ...", text));
   input.keys = {key};
+  window_.taps_.push_back({key, input.ctrl, input.shift});
   wait([this, frames]() mutable {
     if (frames-- > 0) return true;
     window_.scripted_.keys.clear();
@@ -129,13 +142,11 @@ void ScriptPlayer::pressKey(const std::string& text, int frames) {
 void ScriptPlayer::playInput(const ScriptLine& line) {
   ScriptedInput& input = window_.scripted_;
   const auto number = [&](size_t word) { return scriptNumber(name_, line, word); };
-  const auto button = [&](size_t word) {
-    if (line.words.size() <= word || line.words[word] == "left") return 0;
-    return line.words[word] == "right" ? 1 : 2;
-  };
+  const auto count = [&](size_t word, int most) { return scriptCount(name_, line, word, 1, most); };
+  const auto button = [&](size_t word) { return scriptChoice(name_, line, word, {"left", "right", "middle"}); };
   const auto oneFrame = [this] { wait([frames = 1]() mutable { return frames-- > 0; }); };
   if (line.verb == "key") return pressKey(line.words[0], 1);
-  if (line.verb == "hold") return pressKey(line.words[0], static_cast<int>(number(1)));
+  if (line.verb == "hold") return pressKey(line.words[0], count(1, kMostSteps));
   if (line.verb == "move") {
     moveTo(number(0), number(1));
     return wait([frames = 2]() mutable { return frames-- > 0; });
@@ -157,8 +168,8 @@ void ScriptPlayer::playInput(const ScriptLine& line) {
   }
   // drag
   const double x0 = number(0), y0 = number(1), x1 = number(2), y1 = number(3);
-  const int steps = line.words.size() > 4 ? std::max(static_cast<int>(number(4)), 1) : 8;
-  const int pressed = button(5);
+  const int steps = line.words.size() > 4 ? count(4, kMostSteps) : 8;
+  const size_t pressed = button(5);
   moveTo(x0, y0);
   wait([this, x0, y0, x1, y1, steps, pressed, at = -2]() mutable {
     ++at;
@@ -175,10 +186,9 @@ void ScriptPlayer::playInput(const ScriptLine& line) {
 
 // Each step follows when the picture of the one before is there; what it takes is measured.
 void ScriptPlayer::animate(const ScriptLine& line) {
-  const bool isLight = line.words[0] == "light";
-  if (!isLight && line.words[0] != "camera") fail(line, "write light or camera");
+  const bool isLight = scriptChoice(name_, line, 0, {"light", "camera"}) == 0;
   const double degrees = scriptNumber(name_, line, 1);
-  const int count = std::max(static_cast<int>(scriptNumber(name_, line, 2)), 1);
+  const int count = scriptCount(name_, line, 2, 1, kMostSteps);
   auto measured = std::make_shared<Measurement>(Measurement{.name = fmt::format("{} moves", line.words[0])});
   auto start = std::make_shared<ViewClock::time_point>();
   wait([this, isLight, degrees, count, measured, start, done = -1, framesAt = 0, latenciesAt = size_t{0}]() mutable {
@@ -235,9 +245,8 @@ void ScriptPlayer::rest(int frames) {
 
 void ScriptPlayer::turntable(const ScriptLine& line) {
   const std::filesystem::path folder = line.words[0];
-  const int frames = static_cast<int>(scriptNumber(name_, line, 1));
-  const bool isLight = line.words.size() > 2 && line.words[2] == "light";
-  if (frames < 2 || frames > 9999) fail(line, "a turntable has 2..9999 frames");
+  const int frames = scriptCount(name_, line, 1, 2, 9999);
+  const bool isLight = scriptChoice(name_, line, 2, {"camera", "light"}) == 1;
   const ViewState before = window_.state_;
   wait([this, folder, frames, isLight, before, at = 0]() mutable {
     ViewWindow& w = window_;
@@ -290,6 +299,7 @@ void ScriptPlayer::random(int frames, unsigned seed) {
                                       "d",   "e", "1", "2", "3", "4", "5", "escape", "home", "f1"};
         input.keys = {keyNamed(kKeys[static_cast<size_t>(below(static_cast<int>(kKeys.size())))])};
         input.shift = below(4) == 0;
+        w.taps_.push_back({input.keys.front(), false, input.shift});
         break;
       }
       case 3: {
@@ -348,7 +358,7 @@ void ScriptPlayer::playOutput(const ScriptLine& line) {
       // The interface settles in two frames.
       if (at++ < 2) return true;
       if (at == 3) {
-        window_.message_.clear();
+        if (!window_.messageIsProblem_) window_.message_.clear();  // "saved ...": of the script itself
         window_.keepFrame_ = true;
         return true;
       }
@@ -358,17 +368,13 @@ void ScriptPlayer::playOutput(const ScriptLine& line) {
     });
   }
   if (line.verb == "picture") {
-    const int side = line.words.size() > 1 && line.words[1] == "b" ? 1 : 0;
+    const int side = static_cast<int>(scriptChoice(name_, line, 1, {"a", "b"}));
     w.writePictureFile(line.words[0], side);
     gnomon::say(fmt::format("wrote {}\n", line.words[0]));
     return;
   }
   if (line.verb == "memory") {
-    std::ifstream file("/proc/self/statm");
-    size_t whole = 0, resident = 0;
-    file >> whole >> resident;
-    gnomon::say(
-        fmt::format("memory {} {} MiB\n", line.words[0], resident * static_cast<size_t>(sysconf(_SC_PAGESIZE)) >> 20));
+    gnomon::say(fmt::format("memory {} {} MiB\n", line.words[0], processMemory().resident >> 20));
     return;
   }
   if (line.verb == "controls") {
@@ -381,9 +387,9 @@ void ScriptPlayer::playOutput(const ScriptLine& line) {
 
 void ScriptPlayer::play(const ScriptLine& line) {
   ViewWindow& w = window_;
-  const auto number = [&](size_t word) { return scriptNumber(name_, line, word); };
+  const auto count = [&](size_t word, int least, int most) { return scriptCount(name_, line, word, least, most); };
   const std::string& verb = line.verb;
-  const auto frames = [this](int count) { wait([count]() mutable { return count-- > 0; }); };
+  const auto frames = [this](int left) { wait([left]() mutable { return left-- > 0; }); };
   if (verb == "set") {
     w.inputTime_ = ViewClock::now();
     w.setControl(line.words[0], line.words.size() > 1 ? line.words[1] : "");
@@ -402,7 +408,7 @@ void ScriptPlayer::play(const ScriptLine& line) {
     w.message_.clear();
     return;
   }
-  if (verb == "wait-frames") return frames(std::clamp(static_cast<int>(number(0)), 1, 1000000));
+  if (verb == "wait-frames") return frames(count(0, 1, kMostSteps));
   if (verb == "wait-refined")
     return wait([this] {
       window_.scriptWaits_ = !isRefined();
@@ -414,10 +420,10 @@ void ScriptPlayer::play(const ScriptLine& line) {
       return window_.scriptWaits_;
     });
   if (verb == "animate") return animate(line);
-  if (verb == "rest") return rest(static_cast<int>(number(0)));
+  if (verb == "rest") return rest(count(0, 1, kMostSteps));
   if (verb == "turntable") return turntable(line);
   if (verb == "random")
-    return random(static_cast<int>(number(0)), line.words.size() > 1 ? static_cast<unsigned>(number(1)) : 1u);
+    return random(count(0, 1, kMostSteps), line.words.size() > 1 ? static_cast<unsigned>(count(1, 0, kMostSteps)) : 1u);
   if (verb == "drop") {
     w.dropped_.push_back(line.words[0]);
     return frames(2);
@@ -428,7 +434,7 @@ void ScriptPlayer::play(const ScriptLine& line) {
     return frames(1);
   }
   if (verb == "resize") {
-    const auto side = [&](size_t word) { return std::clamp(static_cast<int>(number(word)), 64, 16384); };
+    const auto side = [&](size_t word) { return count(word, 64, 16384); };
     glfwSetWindowSize(w.window_, side(0), side(1));
     return frames(5);
   }

@@ -6,6 +6,7 @@
 #include "view/view_options.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 namespace gnomon {
 
@@ -19,9 +20,12 @@ const std::vector<Verb>& verbs() {
 int openWindow(const ViewFlags& flags) {
   refuseAllLights(flags.scene, "view");
   CompareOptions options = compareOptions(flags.method);
-  if (!options.userBiases.empty()) options.biases = {&options.userBiases.back()->method};
+  if (!flags.biasIsGiven && !options.userBiases.empty())
+    options.biases.erase(options.biases.begin());  // a file given is the bias meant, not the default
   if (options.maps.size() > 2 || options.biases.size() > 2 || options.filters.size() > 2)
-    throw UsageError("view shows two pictures: give at most two --maps, --biases and --filters, for A and for B");
+    throw UsageError(
+        "view shows two pictures: give at most two --maps, biases (--biases, --bias-file) and --filters, for A and for "
+        "B");
   ViewOptions view{.state = {.setup = flags.scene.setup},
                    .device = flags.scene.device,
                    .session = flags.session,
@@ -31,8 +35,9 @@ int openWindow(const ViewFlags& flags) {
                    .json = flags.json,
                    .frames = flags.frames,
                    .scale = flags.scale};
+  view.namesOthers = flags.biasIsGiven || flags.method.verb->get_option("SCENE")->count() > 0;
   parseSize(flags.scene.setup.size);
-  const PictureSize window = parseSize(flags.window);
+  const PictureSize window = parseSize(flags.window, 0.0, "--window");
   view.width = window.width;
   view.height = window.height;
   // The first of two is A's, the second B's.

@@ -2,13 +2,16 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/message.h"
 #include "base/parse.h"
 #include "base/suggest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gnomon {
 
@@ -80,7 +83,7 @@ std::vector<ScriptLine> parseScript(const std::string& name, const std::string& 
     const auto found =
         std::ranges::find_if(scriptVerbs(), [&](const ScriptVerb& verb) { return line.verb == verb.name; });
     if (found == scriptVerbs().end())
-      fail(name, number, fmt::format("{}: no such verb; {}", line.verb, chooseFrom(line.verb, verbNames())));
+      fail(name, number, fmt::format("{}: no such verb; {}", printable(line.verb), chooseFrom(line.verb, verbNames())));
     while (found->endsInText && static_cast<int>(line.words.size()) + 1 < found->most) {
       std::string word;
       if (!(words >> word)) break;
@@ -110,6 +113,22 @@ double scriptNumber(const std::string& name, const ScriptLine& line, size_t word
   const std::optional<double> value = parseNumber(line.words[word]);
   if (!value) fail(name, line.number, fmt::format("{}: is not a number", line.words[word]));
   return *value;
+}
+
+int scriptCount(const std::string& name, const ScriptLine& line, size_t word, int least, int most) {
+  const double value = scriptNumber(name, line, word);
+  if (!(value >= least && value <= most) || value != std::floor(value))
+    fail(name, line.number, fmt::format("{}: write a whole number, {}..{}", line.words[word], least, most));
+  return static_cast<int>(value);
+}
+
+size_t scriptChoice(const std::string& name, const ScriptLine& line, size_t word,
+                    const std::vector<std::string>& choices) {
+  if (line.words.size() <= word) return 0;
+  const auto found = std::ranges::find(choices, line.words[word]);
+  if (found == choices.end())
+    fail(name, line.number, fmt::format("{}: write {}", line.words[word], fmt::join(choices, " or ")));
+  return static_cast<size_t>(found - choices.begin());
 }
 
 }  // namespace gnomon

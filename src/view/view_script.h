@@ -29,5 +29,9 @@ std::vector<ScriptLine> parseScript(const std::string& name, const std::string& 
 
 // Of a word of a line: throws WorldError that names the line.
 double scriptNumber(const std::string& name, const ScriptLine& line, size_t word);
+int scriptCount(const std::string& name, const ScriptLine& line, size_t word, int least, int most);
+// Which of these a word is; the first where there is none.
+size_t scriptChoice(const std::string& name, const ScriptLine& line, size_t word,
+                    const std::vector<std::string>& choices);
 
 }  // namespace gnomon

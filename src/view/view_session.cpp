@@ -4,6 +4,8 @@
 #include "base/parse_json.h"
 #include "view/view_controls.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -16,7 +18,7 @@ constexpr int kSessionVersion = 1;
 }  // namespace
 
 std::string sessionJson(const ViewState& state) {
-  const std::vector<Control> controls = viewControls(nullptr);
+  const std::vector<Control> controls = viewControls(nullptr, state);
   nlohmann::ordered_json json;
   json["gnomon_view"] = kSessionVersion;
   for (const Control& control : controls) {
@@ -25,7 +27,9 @@ std::string sessionJson(const ViewState& state) {
   return json.dump(2) + "\n";
 }
 
-ViewState readSession(const std::string& path, const std::string& text, const ViewState& others) {
+namespace {
+
+ViewState stateOf(const std::string& path, const std::string& text, const ViewState& others) {
   nlohmann::ordered_json json;
   try {
     json = parseJson<nlohmann::ordered_json>(text, {.depth = 4, .members = 1000});
@@ -38,15 +42,32 @@ ViewState readSession(const std::string& path, const std::string& text, const Vi
     throw WorldError(
         fmt::format("{}: is a session of another version of gnomon view; this one reads {}", path, kSessionVersion));
   ViewState state = others;
-  const std::vector<Control> controls = viewControls(nullptr);
+  std::vector<Control> controls = viewControls(nullptr);
+  std::array<uint64_t, kSideCount> files{};  // that `controls` has the parameters of
   for (ViewSide& side : state.sides) side.options.knobs.clear();
   for (const auto& [name, value] : json.items()) {
     if (name == "gnomon_view") continue;
     if (!value.is_string()) throw WorldError(fmt::format("{}: {} is no text", path, name));
     // A map or a bias comes before what only means something with it, as the controls stand in order.
-    findControl(controls, name).set(state, value.get<std::string>());
+    const Control& control = findControl(controls, name);
+    if (control.derived)
+      throw WorldError(fmt::format("{}: {} follows from another member, which stands for it", path, name));
+    control.set(state, value.get<std::string>());
+    if (const auto chosen = chosenBiasFiles(state); chosen != std::exchange(files, chosen))
+      controls = viewControls(nullptr, state);
   }
   return state;
+}
+
+}  // namespace
+
+ViewState readSession(const std::string& path, const std::string& text, const ViewState& others) {
+  try {
+    return stateOf(path, text, others);
+  } catch (const std::exception& error) {  // of what a member is set to, for example
+    const std::string what = error.what();
+    throw WorldError(what.starts_with(path) ? what : path + ": " + what);
+  }
 }
 
 }  // namespace gnomon

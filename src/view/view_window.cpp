@@ -65,13 +65,17 @@ double StageHistory::median() const {
 ViewWindow::ViewWindow(const ViewOptions& options) : options_(options), state_(options.state) {
   std::vector<ScriptLine> lines;
   if (!options.script.empty()) lines = readScript(options.script);
-  if (!options.session.empty() && std::filesystem::exists(options.session))
+  if (!options.session.empty() && std::filesystem::exists(options.session)) {
     state_ = readSession(options.session, readFile(options.session, 1 << 20), state_);
+    if (options.namesOthers)
+      std::fprintf(stderr, "gnomon: note: what the session %s sets comes before the command line\n",
+                   options.session.c_str());
+  }
   goodState_ = state_;
   // The picture is under way while the window is made.
   worker_ = std::make_unique<PictureWorker>(gpu::DeviceOptions{.name = options.device}, [] { glfwPostEmptyEvent(); });
   createWindow();
-  controls_ = viewControls(nullptr);
+  remakeControls();
   current_ = sessionJson(state_);
   if (!options.script.empty()) script_ = std::make_unique<ScriptPlayer>(*this, options.script, std::move(lines));
   lastChange_ = lastFrame_ = inputTime_ = ViewClock::now();
@@ -105,8 +109,14 @@ void ViewWindow::createWindow() {
   });
   // Before ImGui's, which calls it.
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
-    if (action != GLFW_PRESS || key < 0) return;
+    if (action != GLFW_PRESS || key < 0 || (key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER)) return;
     auto* self = static_cast<ViewWindow*>(glfwGetWindowUserPointer(window));
+    const bool isOfOthers = (mods & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0;  // the desktop's
+    if (isOfOthers || (mods & GLFW_MOD_CONTROL) != 0)
+      self->pressedWithModifier_.insert(key);
+    else
+      self->pressedWithModifier_.erase(key);
+    if (isOfOthers) return;
     self->taps_.push_back({key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
   });
   float scaleX = 1.0f, scaleY = 1.0f;
@@ -189,7 +199,7 @@ void ViewWindow::takePicture() {
   if (newest->number == number_ && !changed_) goodState_ = state_;
   if (newest->traced && newest->traced != traced_) {
     traced_ = newest->traced;
-    controls_ = viewControls(traced_);
+    remakeControls();
     pivot_.reset();
     glfwSetWindowTitle(window_, fmt::format("Gnomon: {}", traced_->scene.name).c_str());
     if (!traced_->scene.notes.empty()) say("note: " + traced_->scene.notes.front(), false);
@@ -293,6 +303,7 @@ void ViewWindow::frame() {
   inputTime_ = now;
   openDropped();
   takePicture();
+  followBiasFiles();
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGuiIO& io = ImGui::GetIO();
@@ -302,24 +313,24 @@ void ViewWindow::frame() {
     io.MouseWheel += scripted_.wheel;
     scripted_.wheel = 0.0f;
   }
-  std::vector<int> pressed = scripted_.keys;
-  bool ctrl = scripted_.ctrl, shift = scripted_.shift;
+  // One a frame, in their order; ImGui, which sees what is held, sees it for this frame.
+  KeyTap tap;
   if (!taps_.empty()) {
-    pressed.push_back(taps_.front().key);
-    ctrl = ctrl || taps_.front().ctrl;
-    shift = shift || taps_.front().shift;
+    tap = taps_.front();
     taps_.pop_front();
   }
+  std::vector<int> pressed = scripted_.keys;
+  if (tap.key != 0) pressed.push_back(tap.key);
   std::erase_if(pressed, [&](int key) { return io.KeysDown[key]; });  // held: it is there already
   for (const int key : pressed) io.KeysDown[key] = true;
   const bool heldCtrl = io.KeyCtrl, heldShift = io.KeyShift;
-  io.KeyCtrl = heldCtrl || ctrl;
-  io.KeyShift = heldShift || shift;
+  io.KeyCtrl = heldCtrl || scripted_.ctrl || tap.ctrl;
+  io.KeyShift = heldShift || scripted_.shift || tap.shift;
   ImGui::NewFrame();
   layOut();
   drawPanels();
   drawCanvas();
-  handleKeys();
+  handleKeys(tap);
   handleMouse();
   ask();
   ImGui::Render();

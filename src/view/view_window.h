@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,12 @@ struct PicturePlace {
   PixelRect rect;
   float scale = 1.0f;
   int fullWidth = 0, fullHeight = 0;
+};
+
+// A key that was pressed, and with what: between two frames many may be, in their order, and be let go.
+struct KeyTap {
+  int key = 0;  // GLFW's; 0: none
+  bool ctrl = false, shift = false;
 };
 
 // Input that a script gives in place of a person.
@@ -111,13 +118,16 @@ class ViewWindow {
       say(error.what(), true);
     }
   }
-  void setControl(const std::string& name, const std::string& value);
-  std::string getControl(const std::string& name) const;
+  void remakeControls();
+  void followBiasFiles();
+  void setControl(std::string name, std::string value);
+  std::string getControl(std::string name);
   void saveSession(const std::string& path);
   void writePictureFile(const std::string& path, int side);
   void copyCommand(bool ofComparison);
   std::pair<int, int> pictureSize() const;
   // Of the picture, or of both pictures one after the other; and of their comparison.
+  std::vector<std::string> statusCommands() const;  // of A, or of A and B
   std::string statusCommand() const;
   std::string compareCommandOfSides() const;
 
@@ -128,6 +138,7 @@ class ViewWindow {
   void drawNumber(const Control& control);
   void drawCounts();
   void drawTimes();
+  static float statusHeight();  // pixels
   void drawStatus();
   void drawKeys();
   void drawMessages();
@@ -155,7 +166,7 @@ class ViewWindow {
 
   // view_input.cpp
   void handleMouse();
-  void handleKeys();
+  void handleKeys(const KeyTap& tap);
   void navigate(float dx, float dy, int how);
   glm::dvec3 pivot();
   void turnLight(double degrees, double liftDegrees);
@@ -169,6 +180,7 @@ class ViewWindow {
 
   ViewState state_;
   std::vector<Control> controls_;
+  std::array<uint64_t, kSideCount> controlsFiles_{};  // the bias files whose parameters are among them
   std::shared_ptr<const ViewPicture> picture_;
   std::shared_ptr<const TracedScene> traced_;
 
@@ -205,12 +217,8 @@ class ViewWindow {
   std::string pictureProblem_;
 
   std::vector<std::string> dropped_;
-  // Presses that no frame has seen yet: between two frames a key may be pressed and let go.
-  struct KeyTap {
-    int key = 0;
-    bool ctrl = false, shift = false;
-  };
-  std::deque<KeyTap> taps_;
+  std::deque<KeyTap> taps_;            // that no frame has seen yet
+  std::set<int> pressedWithModifier_;  // when last pressed, with Ctrl or Alt: held on without it, they do not fly
   ScriptedInput scripted_;
   std::vector<StageHistory> times_;
   std::vector<Measurement> measurements_;
@@ -247,6 +255,7 @@ class ScriptPlayer {
   void pressKey(const std::string& text, int frames);
   void moveTo(double x, double y);
   bool isRefined() const;
+  bool lacksScene(const ScriptLine& line) const;
   void checkPatience();
   [[noreturn]] void fail(const ScriptLine& line, const std::string& what) const;
 

@@ -20,7 +20,7 @@ TEST_F(CliTest, AReportOfNothingOrOfGarbageIsRefusedInOneLine) {
   fs::create_directory(folder_ / "run");
   expectMistake("report", 2, "DIR");
   expectMistake("report @/run", 2, "give -o FILE.html");
-  expectMistake("report @/nowhere -o @/a.html", 1, "nowhere/results.json: does not exist");
+  expectMistake("report @/nowhere -o @/a.html", 1, "nowhere: does not exist");
   expectMistake("report @/run -o @/a.html", 1, "results.json: does not exist");
   writeTextFile(folder_ / "run" / "results.json", "{\"schema\": 2");
   expectMistake("report @/run -o @/a.html", 1, "run/results.json: is not JSON");

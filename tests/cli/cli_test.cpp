@@ -229,6 +229,16 @@ TEST_F(CliTest, AFilesKnobsAreSetByName) {
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=much", 2, "'much' is not a number");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=9", 2,
                 "--bias-file-knob reach 9 is outside 0..8 texels");
+  // Where --biases names it, too.
+  ASSERT_EQ(run("compare corner --bias-file @/one.glsl --biases one,none --size 32 --map-size 32 --repeats 1 --json "
+                "@/r.json")
+                .exitCode,
+            0);
+  rows = nlohmann::json::parse(readFile(folder_ / "r.json")).at("rows");
+  EXPECT_EQ(rows[0].at("bias"), "one");
+  EXPECT_EQ(rows[1].at("bias"), "none");
+  expectMistake("render corner --bias-file @/one.glsl --biases none -o @/x.png", 2, "render draws one configuration");
+  EXPECT_EQ(run("render corner --bias-file @/one.glsl --size 32 --map-size 32 -o @/x.png").exitCode, 0);
 }
 
 TEST_F(CliTest, ComparePrintsARecommendationAndKeepsToTheTerminalsWidth) {
@@ -377,6 +387,13 @@ TEST_F(CliTest, ExportWritesOneFileAndSaysWhatItCannot) {
   expectMistake("export --bias slop", 2, "--bias slop: no such bias");
   expectMistake("export --filter soft", 2, "--filter soft: no such filter");
   expectMistake("export --row 2", 2, "--row needs --results");
+  expectMistake("export --cascades 2", 2, "--cascades has no effect: the map cube has no such option");
+  expectMistake("export --map spot --cube-depth radial", 2, "--cube-depth has no effect");
+  expectMistake("export --bias constant --slope-factor 2", 2, "--slope-factor has no effect: the bias is constant");
+  expectMistake("export --bias constant --witness-reach 4", 2, "--witness-reach has no effect");
+  expectMistake("export --scene-index 0", 2, "--scene-index has no effect: no SCENE is given");
+  expectMistake("export atrium --solids closed", 2, "--solids has no effect: no exported code depends on");
+  expectMistake("export --headers @/include --map spot", 2, "--map has no effect: --headers writes all maps");
 }
 
 TEST_F(CliTest, ExportTakesARowOfResults) {
@@ -390,6 +407,27 @@ TEST_F(CliTest, ExportTakesARowOfResults) {
   EXPECT_NE(row.out.find("const int kGnomonMapSide = 48;"), std::string::npos);
   expectMistake("export --results @/out --bias slope", 2, "the row of the results has it already");
   expectMistake("export --results @/out --row 7", 2, "has rows 0 to 1");
+}
+
+TEST_F(CliTest, ExportTakesARowOfOnesOwnBias) {
+  writeTextFile(folder_ / "mine.glsl",
+                "//! name: mine\n//! knob: offset metres 0 1 0.5\n"
+                "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {\n"
+                "  return depthTowardsLight(map, tap.slice, receiver.posL, tap.ray, params.knobs[kUserOffset]) <= "
+                "tap.z1;\n}\n");
+  writeTextFile(folder_ / "other.glsl",
+                "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) "
+                "{ return true; }\n");
+  ASSERT_EQ(run("compare contact --maps cube --size 64 --map-size 48 --biases none --bias-file @/mine.glsl "
+                "--bias-file-knob 0.0625 --repeats 1 --quiet -o @/out")
+                .exitCode,
+            0);
+  const Result row = run("export --results @/out --bias-file @/mine.glsl");
+  EXPECT_EQ(row.exitCode, 0) << row.err;
+  EXPECT_NE(row.out.find("0.0625f"), std::string::npos) << row.out.substr(0, 3000);
+  expectMistake("export --results @/out", 2, "--row 0 is of a bias of your own, mine: give its file with --bias-file");
+  expectMistake("export --results @/out --bias-file @/other.glsl", 2, "and --row 0 is of mine");
+  expectMistake("export --results @/out --row 1 --bias-file @/mine.glsl", 2, "row 1 is of none, which is Gnomon's");
 }
 
 TEST_F(CliTest, RenderLabelsAnotherRenderersVisibility) {

@@ -2,6 +2,10 @@
 #include "cli_fixture.h"
 #include "running_program.h"
 
+#include <chrono>
+#include <iterator>
+#include <sstream>
+
 #include <nlohmann/json.hpp>
 
 namespace gnomon {
@@ -94,16 +98,34 @@ TEST_F(CliTest, InterruptedFramesAreWholeAndCounted) {
 }
 
 TEST_F(CliTest, AnInterruptedReferenceLeavesThePicturesWithoutIt) {
-  RunningProgram program({"fog", "grate", "--size", "256", "--vsv-size", "64x64x128", "--map-size", "64", "--repeats",
-                          "1", "--steps", "8", "--truth", "--no-cache", "--bound", "1e-6", "--quiet", "-o", "out"},
-                         folder_);
+  const std::string pictures =
+      "fog grate --size 256 --vsv-size 64x64x128 --map-size 64 --repeats 1 --steps 8 --no-cache --quiet -o ";
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(pictures + "@/without").exitCode, 0);
+  const auto taken = std::chrono::steady_clock::now() - begin;
+  std::istringstream words(pictures + "out --truth --bound 1e-6");
+  RunningProgram program({std::istream_iterator<std::string>(words), {}}, folder_);
   ASSERT_TRUE(program.waitUntil([&] { return fs::exists(folder_ / "out"); }));
-  std::this_thread::sleep_for(std::chrono::seconds(4));  // it takes minutes
+  std::this_thread::sleep_for(2 * taken);  // the pictures are there; the reference takes minutes
   EXPECT_EQ(program.end(SIGINT), 130);
   const auto results = nlohmann::json::parse(readFile(folder_ / "out" / "results.json"));
   EXPECT_FALSE(results.at("complete"));
   EXPECT_TRUE(results.at("reference").is_null());
   EXPECT_TRUE(isBelow(folder_ / "out", ".beauty.png"));
+}
+
+TEST_F(CliTest, AnInterruptedVolumeOrPaperLeavesNothing) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"vsv", "atrium", "--vsv-size", "1024x1024x2048", "--validate", "-o", "out", "--quiet"},
+      {"reproduce", "dou2014", "-o", "out", "--quiet"}};
+  for (const std::vector<std::string>& words : commands) {
+    RunningProgram program(words, folder_);
+    ASSERT_TRUE(program.waitUntil([&] { return fs::exists(folder_ / "out") && !fs::is_empty(folder_ / "out"); }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // both take many seconds
+    EXPECT_EQ(program.end(SIGINT), 130) << words.front();
+    EXPECT_NE(readFile(folder_ / "stderr").find("interrupted"), std::string::npos);
+    EXPECT_TRUE(!fs::exists(folder_ / "out") || fs::is_empty(folder_ / "out")) << words.front();
+  }
 }
 
 }  // namespace

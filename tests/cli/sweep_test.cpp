@@ -5,6 +5,7 @@
 #include "lab/store/store.h"
 #include "tests/base/places.h"
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -92,7 +93,7 @@ TEST_F(SweepCliTest, ShardsMergeAndReportsAreWritten) {
   const test::Result merged = run("sweep merge @/part1.db @/part2.db -o @/all.db");
   ASSERT_EQ(merged.exitCode, 0) << merged.err;
   expectMistake("sweep merge @/part1.db -o @/all.db", 1, "all.db: exists");
-  expectMistake("sweep merge @/part1.db -o @/new.db --dry-run", 2, "merge: takes stores and -o");
+  expectMistake("sweep merge @/part1.db -o @/new.db --dry-run", 2, "merge takes stores and -o");
   const test::Result again = run("sweep @/p.json --db @/all.db");
   EXPECT_NE(again.out.find("; 0 rows of 0 cases measured"), std::string::npos) << again.out;
   EXPECT_NE(again.out.find("witness"), std::string::npos);
@@ -104,20 +105,19 @@ TEST_F(SweepCliTest, ShardsMergeAndReportsAreWritten) {
   EXPECT_NE(run("sweep @/p.json --db @/all.db --dry-run").out.find("cases"), std::string::npos);
 }
 
-// Those of docs/sweep.md, but DuckDB's, which has functions of its own.
+// Those of docs/sweep.md, up to the quote that ends each.
 TEST_F(SweepCliTest, QueriesOfTheDocumentationRun) {
   ASSERT_EQ(run("sweep @/p.json --db @/plan.db --quiet").exitCode, 0);
   const std::string page = readFile(test::inSource("docs/sweep.md"));
   const Store store(folder_ / "plan.db", sql::Open::Existing);
   size_t queries = 0;
-  for (size_t at = page.find("SELECT "); at != std::string::npos; at = page.find("SELECT ", at + 1)) {
-    const size_t line = page.rfind('\n', at) + 1;
-    if (page.compare(line, 6, "duckdb") == 0) continue;
-    const std::string query = page.substr(at, page.find_first_of("\"'\n", at) - at);
+  for (size_t at = page.find("SELECT "), end = at; at != std::string::npos; at = page.find("SELECT ", end)) {
+    end = page.find_first_of("\"'\n", at);
+    const std::string query = page.substr(at, end - at);
     EXPECT_TRUE(store.database().prepare(query).step()) << query;
     ++queries;
   }
-  EXPECT_GE(queries, 2u);
+  EXPECT_EQ(queries, 3u);
 }
 
 TEST_F(SweepCliTest, MistakesAreOneLine) {
@@ -129,9 +129,79 @@ TEST_F(SweepCliTest, MistakesAreOneLine) {
   expectMistake("sweep merge @/p.json -o @/all.db", 1, "p.json");
   expectMistake("sweep merge -o @/all.db", 2, "name the stores");
   writeTextFile(folder_ / "text.db", std::string(9000, 'x'));
-  expectMistake("sweep @/p.json --db @/text.db", 1, "name a file that gnomon sweep wrote");
+  expectMistake("sweep @/p.json --db @/text.db", 1, "text.db: is no SQLite file; name a file that gnomon sweep wrote");
   expectMistake("sweep @/p.json --db @/no/folder/s.db", 1, "check the path");
   expectMistake("report @/text.db -o @/x.html", 1, "name a file that gnomon sweep wrote");
+  writeTextFile(folder_ / "bad.json", R"({"scenes": ["atrium"], "maps": ["cu\u001b[31m\nbe"]})");
+  expectMistake("sweep @/bad.json", 1, R"(cu\x1b[31m\nbe: no such map; choose from)");
+}
+
+TEST_F(SweepCliTest, WhatIsNoStoreIsOneLineAndNothingIsMadeBesideIt) {
+  std::filesystem::create_directory(folder_ / "folder.db");
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.db").c_str(), 0600), 0);
+  writeTextFile(folder_ / "empty.db", "");
+  writeTextFile(folder_ / "text.db", "no store\n");
+  Store(folder_ / "good.db", sql::Open::Create);
+  writeTextFile(folder_ / "cut.db", readFile(folder_ / "good.db").substr(0, 6000));
+  const size_t files = fileCount();
+  const std::pair<const char*, const char*> wrong[] = {
+      {"/dev/null", "is a device or a pipe"}, {"@/pipe.db", "is a device or a pipe"},
+      {"@/folder.db", "is a folder"},         {"@/empty.db", "is empty"},
+      {"@/text.db", "is no SQLite file"},     {"@/cut.db", "database disk image is malformed"},
+      {"@/absent.db", "does not exist"}};
+  for (const auto& [name, what] : wrong) {
+    const std::string store = name;
+    const std::string file = store.substr(store.rfind('/') + 1) + ": ";
+    expectMistake("sweep merge @/good.db " + store + " -o @/new/all.db", 1, file + what);
+    if (store != "@/folder.db") expectMistake("report " + store, 1, file + what);
+    if (store != "@/empty.db" && store != "@/absent.db") {  // which it would make
+      expectMistake("sweep @/p.json --db " + store, 1, file + what);
+      expectMistake("sweep @/p.json --dry-run --db " + store, 1, file + what);
+      EXPECT_EQ(run("sweep @/p.json --slurm --db " + store).exitCode, 1) << store;
+    }
+    if (store != "@/folder.db")
+      expectMistake("export --results " + store, 1, store == "@/absent.db" ? "does not exist" : "is no results.json");
+    EXPECT_EQ(fileCount(), files) << store;
+  }
+  expectMistake("sweep @/pipe.db", 1, "pipe.db: is no regular file");
+  expectMistake("report @/folder.db -o @/x.html", 1, "folder.db/results.json: does not exist");
+  expectMistake("sweep merge @/good.db -o /dev/null", 1, "/dev/null: is a device or a pipe");
+}
+
+TEST_F(SweepCliTest, APlanThatExcludesEverythingIsWrong) {
+  writeTextFile(folder_ / "none.json",
+                R"({"scenes": ["contact"], "maps": ["cube"], "biases": ["none"], "exclude": [{"map": "cube"}]})");
+  for (const char* more : {"", " --dry-run"})
+    expectMistake(std::string("sweep @/none.json --db @/none.db") + more, 2, "the plan has no case");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none.db"));
+}
+
+TEST_F(SweepCliTest, FlagsWithoutEffectAreWrong) {
+  expectMistake("sweep @/p.json --shards 3", 2, "--shards has no effect: it is for --slurm");
+  expectMistake("sweep @/p.json --sbatch=--partition=long", 2, "--sbatch has no effect");
+  expectMistake("sweep @/p.json --slurm-collect 1", 2, "--slurm-collect has no effect");
+  expectMistake("sweep @/p.json --slurm --dry-run", 2, "--dry-run has no effect");
+  expectMistake("sweep @/p.json --slurm --shard 1/2", 2, "--shard has no effect");
+  expectMistake("sweep @/p.json -o @/all.db", 2, "--out has no effect");
+  expectMistake("sweep merge @/a.db --shards 3 -o @/all.db", 2, "--shards has no effect: merge takes stores and -o");
+}
+
+TEST_F(SweepCliTest, WhatSlurmRefusesLeavesNoFolder) {
+  const auto submit = [&](const char* text) {
+    writeTextFile(folder_ / "bin" / "sbatch", text);
+    std::filesystem::permissions(folder_ / "bin" / "sbatch", std::filesystem::perms::owner_all);
+    return run("sweep @/p.json --slurm --db @/deep/all.db --device llvmpipe");
+  };
+  std::filesystem::create_directory(folder_ / "bin");
+  const std::string path = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "";
+  ::setenv("PATH", ((folder_ / "bin").string() + ":" + path).c_str(), 1);
+  const test::Result refused = submit("#!/bin/sh\necho no such partition\nexit 1\n");
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_NE(refused.err.find("refused the job: no such partition"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "deep"));
+  EXPECT_EQ(submit("#!/bin/sh\necho 7\n").exitCode, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "deep" / "all.db.slurm" / "collect.sh"));
+  ::setenv("PATH", path.c_str(), 1);
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 //
 //   mutate KIND COUNT FOLDER SEED...     KIND: gltf, image, results, bias, shader, density, plan
 //
-// Number n is always the same: `mutate --one KIND n FOLDER SEED...` repeats it. Each must give what the reader promises
-// or a WorldError of one line, within 10 s of processor time; the input that does not is left in FOLDER, and its number
-// on stderr.
+// Number n is always the same: `mutate --one KIND n FOLDER SEED...` repeats it, and prints the refusal. Each must give
+// what the reader promises or a WorldError of one line, within 10 s of processor time; the input that does not is left
+// in FOLDER, and its number on stderr.
 
 #include "base/error.h"
 #include "base/file.h"
@@ -167,12 +167,14 @@ Read readerOf(const std::string& kind) {
 }
 
 // Empty where all is well.
-std::string complaintAbout(Read read, const std::string& bytes, const fs::path& folder, uint64_t& refused) {
+std::string complaintAbout(Read read, const std::string& bytes, const fs::path& folder, uint64_t& refused,
+                           bool prints) {
   try {
     read(bytes, folder);
   } catch (const WorldError& error) {
     ++refused;
     const std::string shown = oneLine(error.what());
+    if (prints) fmt::print("{}\n", shown);
     if (shown.size() > kLongestMessage || printable(shown) != shown) return "a message of more than a line: " + shown;
   } catch (const std::exception& error) {
     return std::string("an error that is not the world's: ") + error.what();
@@ -207,7 +209,7 @@ int main(int argc, char** argv) {
     const Clock::time_point begin = Clock::now();
     // Before it is read, so that a crash leaves it.
     if (one) writeTextFile(folder / "input", bytes);
-    const std::string complaint = complaintAbout(read, bytes, folder, refused);
+    const std::string complaint = complaintAbout(read, bytes, folder, refused, one);
     slowest = std::max(slowest, std::chrono::duration<double>(Clock::now() - begin).count());
     if (complaint.empty()) continue;
     writeTextFile(folder / fmt::format("{}-{}", words[0], number), bytes);

@@ -2,8 +2,12 @@
 #include "base/error.h"
 #include "tests/gpu_fixture.h"
 
+#include <malloc.h>
+
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 namespace gnomon::gpu {
 namespace {
@@ -121,6 +125,21 @@ TEST(Device, AnObjectLeftAliveIsReportedWhenTheDeviceGoes) {
   EXPECT_TRUE(messages.empty());
   device.reset();
   EXPECT_TRUE(anyContains(messages, "VUID-vkDestroyDevice-device")) << messages.size();
+}
+
+// What the loader looks up for a name must not be freed meanwhile. What is freed is overwritten, so that it is seen.
+TEST(Device, ObjectsAreNamedWhileOtherDevicesComeAndGo) {
+  ::mallopt(M_PERTURB, 0xaa);
+  const auto device = Device::create({.validation = true});
+  std::atomic<bool> done = false;
+  std::thread others([&] {
+    for (int i = 0; i < 20; ++i) Device::create({});
+    done = true;
+  });
+  while (!done) const Buffer named(*device, {.name = "named", .size = 64});
+  others.join();
+  ::mallopt(M_PERTURB, 0);
+  EXPECT_TRUE(device->takeValidationMessages().empty());
 }
 
 TEST(Device, ThePipelineCacheIsKeptAndATornOneIsPassedOver) {

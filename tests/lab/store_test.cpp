@@ -160,6 +160,41 @@ std::string complaintOf(const std::function<void()>& work) {
   return "none";
 }
 
+// Read as report and merge read: whatever bytes of its head are wrong, no journal stays beside it.
+TEST(Store, ADamagedStoreThatIsReadIsLeftAlone) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.db";
+  fill(path, {rowOf("k", "s")});
+  const std::string whole = readFile(path);
+  const auto read = [&](const std::string& bytes) {
+    writeTextFile(path, bytes);
+    try {
+      const Store store(path, sql::Open::ReadOnly);
+      EXPECT_THROW(store.database().prepare("DELETE FROM result").run(), WorldError);
+      count(store, "results");
+    } catch (const WorldError&) {
+    }
+    EXPECT_THROW(mergeStores({path, folder.path() / "absent.db"}, folder.path() / "all.db"), WorldError);
+    try {
+      mergeStores({path}, folder.path() / "all.db");
+    } catch (const WorldError& error) {
+      EXPECT_NE(std::string(error.what()).find("a.db: "), std::string::npos) << error.what();
+    }
+    fs::remove(folder.path() / "all.db");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+    return readFile(path);
+  };
+  EXPECT_EQ(read(whole), whole);
+  for (const size_t size : {size_t{16}, size_t{99}, size_t{600}, size_t{4096}, size_t{6000}, whole.size() - 4096})
+    EXPECT_EQ(read(whole.substr(0, size)), whole.substr(0, size)) << size;
+  for (size_t at = 16; at < 120; ++at) {
+    std::string wrong = whole;
+    wrong[at] = static_cast<char>(wrong[at] ^ 0x55);
+    SCOPED_TRACE(at);
+    read(wrong);
+  }
+}
+
 TEST(Store, AFullDiskIsToldAndWhatWasStoredStays) {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "s.db";

@@ -203,6 +203,19 @@ TEST(Sweep, AnotherVersionOfTheResultsIsMeasuredAnewAndAnotherProgramIsNot) {
   EXPECT_NE(keyWith(&Machine::driver, "f"), key);
 }
 
+// Views of one map are every second or third one where a scene has a light for each map.
+TEST(Sweep, AShardHasItsShareOfEveryNthView) {
+  for (const int shards : {1, 2, 3, 4, 6}) {
+    for (const size_t step : {1, 2, 3}) {
+      std::vector<int> counts(static_cast<size_t>(shards));
+      for (size_t view = 0; view < 144; view += step)
+        for (int shard = 0; shard < shards; ++shard)
+          counts[static_cast<size_t>(shard)] += SweepOptions{.shard = shard, .shards = shards}.isInShard(view) ? 1 : 0;
+      for (const int count : counts) EXPECT_EQ(count, 144 / static_cast<int>(step) / shards) << shards << " " << step;
+    }
+  }
+}
+
 TEST(Sweep, ShardsAndAMergeAreTheWhole) {
   const TemporaryFolder folder;
   std::vector<fs::path> parts;

@@ -76,6 +76,7 @@ TEST_F(UserBiasTest, SaysWhatItIs) {
 }
 
 TEST_F(UserBiasTest, MistakesNameFileAndLine) {
+  expectMistake("\xef\xbb\xbf//! name: x\n", "mine.glsl:1: the file begins with a byte-order mark");
   expectMistake("\n//! nmae: x\n", "mine.glsl:2: ");
   expectMistake("\n//! layers: 2\n",
                 "mine.glsl:2: a bias asks for channels, no longer for layers; for 1 write nothing");
@@ -92,9 +93,34 @@ TEST_F(UserBiasTest, MistakesNameFileAndLine) {
       "//! knob: a one 0 1 0\n//! knob: b one 0 1 0\n//! knob: c one 0 1 0\n//! knob: d one 0 1 0\n";
   EXPECT_EQ(load(four)->method.knobs.size(), 4u);
   expectMistake(four + "//! knob: e one 0 1 0\n", "mine.glsl:5: 'e' is one parameter too many; a bias has at most 4");
+  expectMistake("\n#ifdef A\n", "mine.glsl:2: #ifdef has no #endif; write one");
+  expectMistake("\r\n\r\n#endif\r\n", "mine.glsl:3: #endif without #if; remove it");
+  expectMistake("/*\n*/ # else\n", "mine.glsl:2: #else without #if");
+  EXPECT_TRUE(load("// #ifdef A\n/*\n#endif */\n#define A 1 \\\n#endif\n#ifndef A\n#else\n#endif // #endif\n"));
   expectMistake("//! name: constant\n", "built-in bias");
   expectMistake("//! name: ../x\n", "cannot be part of a file name");
   EXPECT_THROW(loadUserBias(folder_.path() / "absent.glsl"), WorldError);
+}
+
+// As the compiler sees them, comments and line breaks of all kinds considered.
+TEST_F(UserBiasTest, DirectivesAreTheCompilers) {
+  for (const char* open : {"/* x */ #ifdef A", "/*\n*/ # /* x */ ifdef A", "a; // x\r#ifdef A", "// x\r\n#ifdef A",
+                           "// \\\n/*\n#ifdef A", "#if 1\n#endif2"})
+    expectMistake(open, "has no #endif; write one");
+  for (const char* fine : {"// x \\\n#ifdef A", "// x \\\r\n#ifdef A", "/* #ifdef A\n#ifdef B */", "/* \n#ifdef A",
+                           "#define A /*\n*/ #ifdef", "a #ifdef", "#ifdef A // #ifdef\r\n#endif", "#ifdefA"})
+    EXPECT_TRUE(load(fine)) << fine;
+}
+
+TEST_F(UserBiasTest, OnlyItsOwnLineDirectivesAreBlanked) {
+  const auto compiled = [&](const char* text) {
+    return shaderWith(kVisibilityShader, load(text).get()).overrides.at("shared/bias/user.glsl");
+  };
+  EXPECT_EQ(compiled("a;\n# line 5 \"b\"\r\nc;\n"), "a;\n" + std::string(12, ' ') + "\r\nc;\n");
+  EXPECT_EQ(compiled("/* x */#line 5 /* y\n*/ a;"), "/* x */" + std::string(8, ' ') + "/* y\n*/ a;");
+  for (const char* kept : {"// #line 5\n", "/*\n#line 5\n*/", "// \\\n#line 5\n", "#line x\n", "a #line 5\n",
+                           "# /* x */ line 5\n", "#define A \\\n#line 5\n"})
+    EXPECT_EQ(compiled(kept), kept);
 }
 
 TEST_F(UserBiasTest, WhatWouldCrashTheCompilerOrNeverEndIsRefused) {
@@ -121,6 +147,13 @@ TEST_F(UserBiasTest, WhatWouldCrashTheCompilerOrNeverEndIsRefused) {
                   "mine.glsl: an array or structure in it has more than 4096 values");
   expectComplaint("float g(float x);\nfloat f(float x) {\n return g(x); }\nfloat g(float x) { return f(x); }\n",
                   "if (f(1.0f) > 0.0f) return true;", "calls itself");
+  const std::string resource = "is a resource that nobody gives a bias";
+  expectComplaint("\nlayout(binding = 30) uniform Mine { float mine; };\n", "if (mine > tap.z1) return true;",
+                  "mine.glsl:2: 'Mine' " + resource);
+  expectComplaint("layout(binding = 31) uniform sampler2D mine;\n",
+                  "if (textureLod(mine, vec2(0.0f), 0.0f).x > tap.z1) return true;", "mine.glsl:1: 'mine' " + resource);
+  expectComplaint("layout(push_constant) uniform Mine { float mine; };\n", "if (mine > tap.z1) return true;",
+                  "mine.glsl:1: 'push_constant' " + resource);
   // Each calls the one before twice: 2^16 sines in a page, 2^12 of which are taken.
   const auto doubling = [](int functions) {
     std::string text = "float f0(float x) { return sin(x); }\n";
@@ -213,6 +246,8 @@ TEST_F(UserBiasTest, WhatDoesNotCompileNamesFileAndLine) {
     const std::string message = error.what();
     EXPECT_NE(message.find(bias->path + ":4:"), std::string::npos) << message;
     EXPECT_NE(message.find("nonsense"), std::string::npos) << message;
+    for (const char* follows : {"missing #endif", "compilation terminated"})
+      EXPECT_EQ(message.find(follows), std::string::npos) << message;
   }
 }
 

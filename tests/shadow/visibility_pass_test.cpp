@@ -1,5 +1,6 @@
 // The visibility shader end to end, against exact rays: scenes with a known answer, and one golden picture a method.
 #include "map_fixture.h"
+#include "tests/base/scenes_to_test.h"
 #include "tests/golden_picture.h"
 #include "tests/judge/lit_map.h"
 
@@ -24,7 +25,7 @@ TEST_F(VisibilityPassTest, OnSlopeNoneHasPlentyOfAcneAndAdaptiveNone) {
 }
 
 TEST_F(VisibilityPassTest, LabelsAddUpToTheScoredPixelsOnEveryScene) {
-  for (const char* scene : {"contact", "corner", "lshape", "sheets"}) {
+  for (const char* scene : test::scenesToTest({"contact", "corner", "lshape", "sheets"})) {
     LitMap spot(device(), scene, spotParameterization(), 128, {.side = 128});
     for (const BiasMethod& method : biasMethods()) {
       const LabelledResult result = spot.judge(method);

@@ -1,9 +1,11 @@
 #include "view/view_controls.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "lab/compare/render_picture.h"
 #include "lab/core/maps.h"
 #include "scene/generate.h"
+#include "tests/base/temporary_folder.h"
 
 #include <algorithm>
 #include <set>
@@ -134,6 +136,49 @@ TEST(ViewControls, MistakesLeaveTheStateAsItWas) {
     EXPECT_THROW(set(state, controls, name, value), UsageError) << name;
     EXPECT_EQ(sessionJson(state), before) << name;
   }
+}
+
+// What a file declares is a control as of any bias, is saved, and stays by its name when the file is read again.
+TEST(ViewControls, ABiasFileHasItsParameters) {
+  const test::TemporaryFolder folder;
+  const std::string path = (folder.path() / "mine.glsl").string();
+  const auto write = [&](const std::string& knobs) {
+    writeTextFile(path, "//! name: mine\n" + knobs +
+                            "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {\n"
+                            "  return tap.z1 > params.knobs[0];\n}\n");
+  };
+  write("//! knob: reach texels 0 8 2\n//! knob: rest one 0 1 0.5\n");
+  ViewState state = stateOf("atrium");
+  EXPECT_EQ(chosenBiasFiles(state), (std::array<uint64_t, kSideCount>{}));
+  set(state, viewControls(nullptr, state), "a.bias", path);
+  const uint64_t number = chosenBiasFiles(state)[0];
+  EXPECT_NE(number, 0u);
+  EXPECT_EQ(chosenBiasFiles(state)[1], 0u);
+  std::vector<Control> controls = viewControls(nullptr, state);
+  const Control& reach = findControl(controls, "a.knob.reach");
+  EXPECT_EQ(reach.unit, "texels");
+  EXPECT_TRUE(reach.applies(state));
+  EXPECT_FALSE(reach.isGiven(state));
+  EXPECT_THROW(reach.set(state, "9"), UsageError);
+  reach.set(state, "3");
+  set(state, controls, "a.knob.rest", "0.25");
+  EXPECT_NE(pictureCommand(state, 0, 64, 48, "p.png").find("--bias-file-knob reach=3"), std::string::npos);
+  const std::string saved = sessionJson(state);
+  const ViewState again = readSession("s.json", saved, stateOf("corner"));
+  EXPECT_EQ(sessionJson(again), saved);
+  EXPECT_EQ(pictureCommand(again, 0, 64, 48, "p.png"), pictureCommand(state, 0, 64, 48, "p.png"));
+
+  write("//! knob: other one 0 1 0.5\n//! knob: reach texels 0 8 2\n");  // `rest` is gone
+  set(state, controls, "a.bias", path);
+  EXPECT_NE(chosenBiasFiles(state)[0], number);
+  controls = viewControls(nullptr, state);
+  EXPECT_EQ(findControl(controls, "a.knob.reach").get(state), "3");
+  EXPECT_EQ(findControl(controls, "a.knob.other").get(state), "0.5");
+  EXPECT_THROW(findControl(controls, "a.knob.rest"), UsageError);
+  set(state, controls, "a.bias", "none");
+  const std::vector<std::string>& choices = findControl(controls, "a.bias").choices;
+  EXPECT_NE(std::ranges::find(choices, path), choices.end());
+  EXPECT_THROW(findControl(viewControls(nullptr, state), "a.knob.reach"), UsageError);
 }
 
 // What means nothing on a volume is refused there, in whatever order it is set.

@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "view/view_controls.h"
 
+#include <functional>
+
 #include <gtest/gtest.h>
 
 namespace gnomon {
@@ -29,6 +31,17 @@ std::string mistakeIn(const std::string& text) {
     return error.what();
   }
   return "";
+}
+
+TEST(ViewScript, CountsAndChoicesHaveBounds) {
+  const ScriptLine line = parseScript("s", "drag 1 2.5 3 4 -3 middel\n").front();
+  EXPECT_EQ(scriptCount("s", line, 0, 1, 9), 1);
+  EXPECT_EQ(scriptChoice("s", line, 6, {"left", "right"}), 0u);
+  for (const auto& wrong : {std::function<void()>([&] { scriptCount("s", line, 1, 1, 9); }),
+                            std::function<void()>([&] { scriptCount("s", line, 4, 1, 9); }), std::function<void()>([&] {
+                              scriptChoice("s", line, 5, {"left", "middle"});
+                            })})
+    EXPECT_THROW(wrong(), WorldError);
 }
 
 TEST(ViewScript, MistakesNameTheLine) {

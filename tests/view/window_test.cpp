@@ -38,16 +38,28 @@ class WindowTest : public ::testing::Test {
     writeTextFile(folder() / "run", fmt::format(R"(rm -f display
 '{}' -displayfd 3 -screen 0 1000x700x24 -nolisten tcp 3>display 2>/dev/null &
 server=$!
-for i in $(seq 200); do [ -s display ] && break; sleep 0.05; done
+for i in $(seq 1200); do [ -s display ] && break; sleep 0.05; done
 export DISPLAY=:$(cat display)
 {}
-timeout 60 '{}' view {}
+timeout 600 '{}' view {}
 code=$?
 kill $server $person
 exit $code
 )",
                                                 GNOMON_XVFB, before, test::inBuild("gnomon"), arguments));
     return shell("sh run");
+  }
+  // With a hand that acts when the first picture is there, whose title names the scene, and presses Ctrl+Q in the end
+  // until the window is gone. `acts`: shell; $x is xdotool, $id the window. Without a window manager keys go where the
+  // pointer is until a window has the focus. Keys are let go at once, as a quick hand does.
+  Result viewByHand(const std::string& arguments, const std::string& acts) const {
+    return view(arguments, fmt::format("x='{}'\n"
+                                       "( for i in $(seq 1500); do id=$($x search --onlyvisible --name Gnomon: "
+                                       "2>/dev/null | head -1); [ -n \"$id\" ] && break; sleep 0.1; done\n"
+                                       "$x mousemove 700 300 windowfocus --sync $id; sleep 1\n"
+                                       "{}\n"
+                                       "for i in $(seq 100); do $x key --delay 0 ctrl+q; sleep 1; done ) & person=$!",
+                                       GNOMON_XDOTOOL, acts));
   }
   Result play(const std::string& arguments, const std::string& script) const {
     writeTextFile(folder() / "script", script);
@@ -99,6 +111,31 @@ TEST_F(WindowTest, PicturesAreThoseOfTheCommandInTheStatusLine) {
   EXPECT_GT(times["first_picture_ms"].get<double>(), 0.0);
 }
 
+// Beside another, with its parameters, which a session keeps.
+TEST_F(WindowTest, ABiasOfOnesOwnStandsBesideAnother) {
+  writeTextFile(folder() / "mine.glsl",
+                "//! name: mine\n//! knob: offset metres 0 1 0.1\n"
+                "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {\n"
+                "  return depthTowardsLight(map, tap.slice, receiver.posL, tap.ray, params.knobs[kUserOffset]) <= "
+                "tap.z1;\n}\n");
+  const std::string own = "--bias-file mine.glsl --bias-file-knob offset=0.02 ";
+  const Result played = play("lshape --size 96 --map-size 64 --biases mine,none --show labels " + own,
+                             "wait-refined\nexpect split on\nexpect a.bias mine.glsl\nexpect b.bias none\n"
+                             "set a.knob.offset 0.03\nwait-refined\ncommand\npicture a.png a\npicture b.png b\n"
+                             "save s.json\nset a.bias none\nundo\nexpect a.knob.offset 0.03\n");
+  expectFine(played);
+  expectFine(view("--session s.json --picture again.png --frames 2 --window 1000x700"));
+  expectSame("a.png", "again.png");
+  const std::string render = "'" + test::inBuild("gnomon") + "' render lshape --size 96 --map-size 64 --show labels ";
+  expectFine(shell(render + "--maps directional --bias-file mine.glsl --bias-file-knob 0.03 -o own.png"));
+  expectSame("a.png", "own.png");
+  expectFine(shell(render + "--maps directional --biases none -o none.png"));
+  expectSame("b.png", "none.png");
+  const Result early = play("lshape --size 64", "wait-refined\npicture b.png b\n");
+  EXPECT_EQ(early.exitCode, 1);
+  EXPECT_NE(early.err.find("script:2: B is not shown"), std::string::npos) << early.err;
+}
+
 // The light dragged in the picture, keys, the split, sessions, files that are broken, sizes.
 TEST_F(WindowTest, ItIsUsed) {
   writeTextFile(folder() / "broken.glb", "no glTF");
@@ -143,31 +180,84 @@ TEST_F(WindowTest, FogIsShownAndTurned) {
   }
 }
 
+// lavapipe's multiview draws other slices, and is refused each time.
+TEST_F(WindowTest, AMapThatCannotBeDrawnIsToldEachTime) {
+  const Result played = play("lshape --light lamp --size 64 --map-size 64 --biases witness --show labels",
+                             "wait-refined\nset a.cube-passes multiview\nwait-refined\nset loupe on\nwait-refined\n"
+                             "set unfolded on\nwait-refined\nexpect-problem --cube-passes multiview\n"
+                             "set a.cube-passes six\nwait-refined\nexpect-problem\n");
+  expectFine(played);
+}
+
+// A bias's file is edited and dropped again, and again: neither its name nor its address tells which one it is.
+TEST_F(WindowTest, ABiasThatIsReadAgainIsAnother) {
+  std::string script;
+  for (int i = 0; i < 6; ++i) {
+    writeTextFile(folder() / std::to_string(i) / "mine.glsl",
+                  fmt::format("bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {{\n"
+                              "  return {};\n}}\n",
+                              i % 2 == 0));
+    script += fmt::format("set a.bias {0}/mine.glsl\nwait-refined\npicture {0}.png\n", i);
+  }
+  writeTextFile(folder() / "endless.glsl",
+                "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) {\n"
+                "  while (true) {}\n  return true;\n}\n");
+  script += "drop endless.glsl\nwait-refined\nexpect-problem nothing ends\nexpect a.bias 5/mine.glsl\n";
+  expectFine(play("lshape --size 64 --map-size 64", script));
+  for (int i = 2; i < 6; ++i) expectSame(fmt::format("{}.png", i), fmt::format("{}.png", i % 2));
+  EXPECT_NE(readFile(folder() / "0.png"), readFile(folder() / "1.png"));
+}
+
 TEST_F(WindowTest, ATurntableIsWritten) {
   const Result played = play("lshape --size 64 --map-size 64", "wait-refined\nturntable turn 3 light\n");
   expectFine(played);
   for (const char* file : {"turn/frames/0000.png", "turn/frames/0001.png", "turn/frames/0002.png"})
     EXPECT_TRUE(std::filesystem::exists(folder() / file)) << file;
   EXPECT_NE(readFile(folder() / "turn/frames/0000.png"), readFile(folder() / "turn/frames/0001.png"));
+  const bool hasFfmpeg = shell("command -v ffmpeg").exitCode == 0;
+  EXPECT_EQ(std::filesystem::exists(folder() / "turn/frames.mp4"), hasFfmpeg);
+  if (hasFfmpeg) {
+    EXPECT_EQ(readFile(folder() / "turn/frames.mp4").substr(4, 4), "ftyp");
+  }
 }
 
 // Real key presses and a real mouse, through the X server.
 TEST_F(WindowTest, XEventsArrive) {
-  // Its title names the scene when the first picture is there. Keys are let go at once, as a quick hand does. Without a
-  // window manager keys go where the pointer is until a window has the focus; the last ones are pressed until it is
-  // gone.
-  const std::string person = fmt::format(
-      "( for i in $(seq 300); do id=$({0} search --onlyvisible --name Gnomon: 2>/dev/null | head -1); "
-      "[ -n \"$id\" ] && break; sleep 0.1; done; {0} mousemove 700 300 windowfocus --sync $id; sleep 1; "
-      "{0} key --delay 0 Tab; sleep 1; {0} mousedown 1; sleep 1; {0} mousemove 740 320; sleep 1; "
-      "{0} mouseup 1; sleep 0.5; for i in $(seq 20); do {0} key --delay 0 ctrl+s; sleep 0.5; {0} key --delay 0 ctrl+q; "
-      "sleep 1; done ) & person=$!",
-      GNOMON_XDOTOOL);
-  const Result result = view("lshape --size 128 --map-size 64 --window 1000x700 --session s.json", person);
+  const Result result = viewByHand("lshape --size 128 --map-size 64 --window 1000x700 --session s.json",
+                                   "$x key --delay 0 Tab; sleep 1; $x mousedown 1; sleep 1; $x mousemove 740 320; "
+                                   "sleep 1; $x mouseup 1; sleep 0.5; $x key --delay 0 ctrl+s");
   expectFine(result);
   const auto session = nlohmann::json::parse(readFile(folder() / "s.json"));
   EXPECT_EQ(session["split"], "on");
   EXPECT_TRUE(session["camera"].get<std::string>().starts_with("eye:")) << session["camera"];
+}
+
+// What is pressed while a frame takes long comes in its order, let go again or not, each with its own modifiers.
+TEST_F(WindowTest, KeysOfALongFrameComeInTheirOrder) {
+  const Result result = viewByHand("lshape --size 128 --map-size 64 --window 1000x700 --session s.json",
+                                   "pid=$($x getwindowpid $id); kill -STOP $pid; "
+                                   "$x key --delay 0 l Tab ctrl+s Tab; $x keydown ctrl keydown q; kill -CONT $pid; "
+                                   "sleep 1; $x keyup q keyup ctrl");
+  expectFine(result);
+  const auto session = nlohmann::json::parse(readFile(folder() / "s.json"));
+  EXPECT_EQ(session["split"], "on");
+  EXPECT_EQ(session["loupe"], "on");
+}
+
+// Held on when Ctrl is let go, S is no flight backwards.
+TEST_F(WindowTest, AKeyThatWasPressedWithCtrlDoesNotFly) {
+  expectFine(viewByHand("lshape --size 128 --map-size 64 --window 1000x700 --session s.json",
+                        "$x keydown ctrl keydown s; sleep 0.5; $x keyup ctrl; sleep 1; $x keyup s; sleep 0.5; "
+                        "$x key --delay 0 ctrl+s"));
+  EXPECT_EQ(nlohmann::json::parse(readFile(folder() / "s.json")).value("camera", ""), "");
+}
+
+TEST_F(WindowTest, AScreenshotHasTheProblem) {
+  writeTextFile(folder() / "bad.glsl", "nonsense\n");
+  expectFine(
+      play("lshape --size 96 --map-size 64",
+           "wait-refined\nscreenshot before.png\ndrop bad.glsl\nscreenshot after.png\nexpect-problem userLit\n"));
+  EXPECT_NE(readFile(folder() / "before.png"), readFile(folder() / "after.png"));
 }
 
 TEST_F(WindowTest, AnythingMayHappen) {
@@ -188,6 +278,10 @@ TEST_F(WindowTest, MistakesAreOneLine) {
   expectMistake(play("lshape --size 64", "wait-refined\nexpect split on\n"), 1, "script:2: split is 'off', not 'on'");
   expectMistake(play("lshape --size 64", "set a.bias biass\n"), 1, "script:1: ");
   expectMistake(view("nosuchscene --frames 3"), 1, "nosuchscene");
+  expectMistake(view("lshape --frames 3 --window 0x5"), 2, "--window 0x5");
+  expectMistake(view("lshape --frames 3 --ui-scale nan"), 2, "nan");
+  // A light has a place as soon as there is a scene.
+  expectFine(play("lshape --light lamp --size 64", "set light.x 0.5\nexpect light.x 0.5\n"));
 }
 
 }  // namespace

@@ -169,7 +169,7 @@ std::string packed(const Named& named, std::string bytes) {
     const openvdb::FloatGrid::Ptr grid = checkedGrid(readNamed(archive, named), named);
     const DensityFile::Facts facts = factsOf(*grid);
     const nanovdb::GridHandle<nanovdb::HostBuffer> nano = nanovdb::openToNanoVDB(*grid);
-    const std::string name = printable(grid->getName());
+    const std::string name = grid->getName();
     const uint64_t length = name.size();
     std::string all(reinterpret_cast<const char*>(&facts), sizeof(facts));
     all.append(reinterpret_cast<const char*>(&length), sizeof(length));
@@ -191,9 +191,14 @@ DensityFile unpacked(const Named& named, const std::string& bytes) {
   DensityFile file{.path = named.path, .gridName = {}, .facts = {}, .nanoVdb = {}};
   uint64_t length = 0;
   constexpr size_t kHead = sizeof(file.facts) + sizeof(length);
-  std::memcpy(&file.facts, bytes.data(), sizeof(file.facts));
-  std::memcpy(&length, bytes.data() + sizeof(file.facts), sizeof(length));
-  file.gridName = bytes.substr(kHead, length);
+  if (bytes.size() >= kHead) {
+    std::memcpy(&file.facts, bytes.data(), sizeof(file.facts));
+    std::memcpy(&length, bytes.data() + sizeof(file.facts), sizeof(length));
+  }
+  // A file may have made of its reader what it liked.
+  if (bytes.size() < kHead || length > bytes.size() - kHead)
+    throw fileError(named.path, "is damaged: it crashes its reader", "use another file");
+  file.gridName = printable(bytes.substr(kHead, length));
   file.nanoVdb = bytes.substr(kHead + length);
   return file;
 }

@@ -204,7 +204,7 @@ Scene openScene(const SetupOptions& options) {
   return scene;
 }
 
-PictureSize parseSize(const std::string& text, double aspect) {
+PictureSize parseSize(const std::string& text, double aspect, std::string_view flag) {
   PictureSize size;
   if (text.empty()) {
     const double ratio = aspect > 0.0 ? aspect : 1.0;
@@ -222,7 +222,7 @@ PictureSize parseSize(const std::string& text, double aspect) {
     size.height = size.width;
   }
   if (size.width < 1 || size.height < 1 || size.width > 16384 || size.height > 16384)
-    throw UsageError(fmt::format("--size {}: write N or WxH, each 1..16384 pixels", text));
+    throw UsageError(fmt::format("{} {}: write N or WxH, each 1..16384 pixels", flag, text));
   return size;
 }
 

@@ -36,8 +36,8 @@ struct PictureSize {
 inline constexpr int kDefaultSide = 1024;  // pixels, of the longer side
 
 // "640x480" or "512"; empty: kDefaultSide on the longer side, and on the other what `aspect` (width over height; 0:
-// any) makes of it. Throws UsageError outside 1..16384.
-PictureSize parseSize(const std::string& text, double aspect = 0.0);
+// any) makes of it. Throws UsageError, which names `flag`, outside 1..16384.
+PictureSize parseSize(const std::string& text, double aspect = 0.0, std::string_view flag = "--size");
 
 // The scene that they name, as they choose it. Throws WorldError and UsageError.
 Scene openScene(const SetupOptions& options);

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/suggest.h"
+#include "lab/export/refuse_user_code.h"
 #include "lab/export/simplify.h"
 #include "lab/export/visibility_source.h"
 #include "scene/mesh_links.h"
@@ -314,14 +315,21 @@ void gatherConstants(Program& program) {
                         [](const Decl& decl) { return decl.file == "constants"; });
 }
 
-bool usesPixel(const Program& program) {
-  return std::ranges::any_of(program.find("receiverVisibility")->params,
-                             [](const code::Param& param) { return param.name == "pixel"; });
+bool hasParam(const Program& program, const char* function, const char* name) {
+  return std::ranges::any_of(program.find(function)->params,
+                             [&](const code::Param& param) { return param.name == name; });
 }
 
-bool usesId(const Program& program) {
-  return std::ranges::any_of(program.find("receiverAt")->params,
-                             [](const code::Param& param) { return param.name == "id"; });
+// What a caller writes between the parentheses: the parameters that are left, by the names that the head explains.
+std::string argumentsOf(const Program& program, const char* function) {
+  static const std::map<std::string, std::string> explained = {
+      {"posW", "positionW"}, {"normalW", "normalW"}, {"id", "triangleId"}};
+  std::string arguments;
+  for (const code::Param& param : program.find(function)->params) {
+    const auto found = explained.find(param.name);
+    arguments += (arguments.empty() ? "" : ", ") + (found == explained.end() ? param.name : found->second);
+  }
+  return arguments;
 }
 
 // What a caller fills the map's members with.
@@ -362,26 +370,26 @@ std::string headerText(const ExportChoice& choice, const Program& program, const
   say(fmt::format("Bias: {}", choice.bias->sentence));
   say(fmt::format("Made by `{}`; MIT licence.", choice.command));
   say("");
-  std::string arguments;
-  for (const code::Param& param : program.find("receiverVisibility")->params)
-    arguments += (arguments.empty() ? "" : ", ") + param.name;
-  if (language == Language::Msl) arguments += ", textures";
-  say(fmt::format("  {} receiver = gnomonReceiverAt(frame, positionW, normalW{});", "GnomonReceiver",
-                  usesId(program) ? ", triangleId" : ""));
-  say(fmt::format("  float lit = gnomonVisibility({});", arguments));
+  const bool usesId = hasParam(program, "receiverAt", "id");
+  say(fmt::format("  GnomonReceiver receiver = gnomonReceiverAt({});", argumentsOf(program, "receiverAt")));
+  say(fmt::format("  float lit = gnomonVisibility({});", argumentsOf(program, "receiverVisibility")));
   say("");
-  say("positionW lies on the surface, metres; normalW is its triangle's unit normal, turned to the light's side (no "
-      "bump or");
-  say("smooth normal: cross(dFdx(positionW), dFdy(positionW)) will do). What faces away from the light is dark without "
-      "a map.");
+  if (hasParam(program, "receiverAt", "normalW")) {
+    say("positionW lies on the surface, metres; normalW is its triangle's unit normal, turned to the light's side (no "
+        "bump or");
+    say("smooth normal: cross(dFdx(positionW), dFdy(positionW)) will do). What faces away from the light is dark "
+        "without a map.");
+  } else {
+    say("positionW lies on the surface, metres. What faces away from the light is dark without a map.");
+  }
   if (choice.map.kind == glsl::kMapCube || choice.map.kind == glsl::kMapCubeRadial)
     say("frame: the light's place, and the world's axes.");
   else if (choice.map.positional)
     say("frame: the light's place, and its axes; it looks along -backW.");
   else
     say("frame: a point near the scene, and the light's axes; it shines along -backW.");
-  if (usesId(program)) say("triangleId: 1 + the place of the receiver's triangle among all, as the map's ids name it.");
-  if (usesPixel(program)) say("pixel: of the picture; it varies the jitter.");
+  if (usesId) say("triangleId: 1 + the place of the receiver's triangle among all, as the map's ids name it.");
+  if (hasParam(program, "receiverVisibility", "pixel")) say("pixel: of the picture; it varies the jitter.");
   say("");
   say(fmt::format("The map, {} slice{} of {} x {} texels:", choice.map.sliceCount,
                   choice.map.sliceCount == 1 ? "" : "s", choice.map.side, choice.map.side));
@@ -477,16 +485,31 @@ ExportedScene factsOf(const ExportChoice& choice) {
   return facts;
 }
 
+// What exported code declares beside the pass's own.
+std::set<std::string> takenNames() {
+  std::set<std::string> names = {"gnomonVisibility",  "gnomonFindLsb",     "GnomonTextures",   "kGnomonMapSide",
+                                 "kGnomonSliceCount", "kGnomonSceneScale", "kGnomonEndMargin", "kGnomonIdShift"};
+  for (const Table& table : tables()) names.insert(table.name);
+  return names;
+}
+
 // All that is left of the pass, in no language yet.
 Program leftOf(const ExportChoice& choice, const ExportedScene& facts) {
-  Program program = code::readVisibility({{"GNOMON_BIAS_METHOD", "kMethod"}, {"GNOMON_MAP_KIND", "kMapKind"}});
+  const std::map<std::string, std::string> aliases = {{"GNOMON_BIAS_METHOD", "kMethod"},
+                                                      {"GNOMON_MAP_KIND", "kMapKind"}};
+  Program program = choice.bias->user != nullptr ? code::readVisibilityWith(*choice.bias->user, aliases)
+                                                 : code::readVisibility(aliases);
+  const code::Known known = knownOf(choice, facts.instanced, facts.masked);
+  if (choice.bias->user != nullptr)
+    code::refuseUserCode(program, *choice.bias->user, known, choice.language, takenNames());
   bakeKnobs(program, choice);
   bakeSlices(program, choice.map);
   addConstants(program, choice, facts, facts.instanced);
   Decl& tapCount = *program.find("kTapCount");
   tapCount.value = code::atom(std::to_string(choice.filter->tapCount));
   tapCount.file = "constants";
-  code::simplify(program, knownOf(choice, facts.instanced, facts.masked));
+  code::simplify(program, known);
+  if (choice.bias->user != nullptr) code::refuseLeftParams(program, *choice.bias->user);
   dropUnmentioned(program, "receiverAt");
   dropUnmentioned(program, "receiverVisibility");
   // A bias that compares numbers of triangles reads nothing of the map.
@@ -525,7 +548,6 @@ ExportedShader printed(const ExportChoice& choice, const ExportedScene& facts, P
         "{}bool gnomonIsMeshHole(uint triangle_, uint instance, {} weights) {{\n  return false;\n}}\n",
         inlined, code::nameIn(choice.language, "vec3"));
   }
-  exported.text = headerText(choice, program, used, facts);
   // Metal has no globals: what reads textures takes them, and so does what calls it.
   if (choice.language == Language::Msl) {
     std::set<std::string> readers;
@@ -533,7 +555,7 @@ ExportedShader printed(const ExportChoice& choice, const ExportedScene& facts, P
     code::passDown(program, readers, {.type = "GnomonTextures", .name = "textures"});
   }
 
-  exported.text += "\n";
+  exported.text = headerText(choice, program, used, facts) + "\n";
   if (choice.language == Language::GlslEs) {
     exported.text += "precision highp float;\nprecision highp int;\n\n";
   } else if (choice.language == Language::Msl) {

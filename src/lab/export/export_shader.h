@@ -59,7 +59,8 @@ struct ExportedShader {
   std::vector<ExportedResource> resources;
 };
 
-// Throws UsageError where the choice makes no sense, with one line that says why.
+// Throws UsageError where the choice makes no sense, with one line that says why; WorldError that names the file of a
+// user's bias where that leaves the dialect of docs/shared_glsl.md.
 ExportedShader exportShader(const ExportChoice& choice);
 // In every language, in their order.
 std::vector<ExportedShader> exportShaders(ExportChoice choice);

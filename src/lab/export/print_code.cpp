@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -49,13 +51,51 @@ const Names& mslNames() {
   return names;
 }
 
+std::set<std::string> wordsOf(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), std::istream_iterator<std::string>()};
+}
+
 // Words of a language that the shaders use as names.
 bool isReserved(Language language, const std::string& name) {
-  static const std::set<std::string> hlsl = {"point",  "line",    "triangle", "sample", "linear",
-                                             "center", "texture", "pass",     "out_"};
-  static const std::set<std::string> msl = {"constant", "device",  "thread", "vertex", "fragment", "kernel",
-                                            "sampler",  "texture", "half",   "near",   "far"};
-  return language == Language::Hlsl ? hlsl.contains(name) : language == Language::Msl && msl.contains(name);
+  // Of C++, which both come from.
+  static const std::set<std::string> both = wordsOf(
+      "auto catch char class delete double enum explicit extern friend goto half inline long mutable namespace "
+      "new operator private protected public register short signed sizeof static template texture this throw "
+      "try typedef typename union unsigned using virtual volatile static_cast const_cast reinterpret_cast "
+      "dynamic_cast export asm");
+  // Of HLSL, its types, and functions that are printed for GLSL's.
+  static const std::set<std::string> hlsl = wordsOf(
+      "point line triangle sample linear center pass out_ vector matrix string compile dword cbuffer tbuffer "
+      "technique interface shared groupshared snorm unorm precise column_major row_major packoffset lineadj "
+      "triangleadj centroid uniform sampler nointerpolation noperspective globallycoherent min10float "
+      "min16float min12int min16int min16uint stateblock "
+      "AppendStructuredBuffer BlendState Buffer ByteAddressBuffer ConstantBuffer ConsumeStructuredBuffer "
+      "DepthStencilState InputPatch LineStream NULL OutputPatch PointStream RasterizerState RWBuffer "
+      "RWByteAddressBuffer RWStructuredBuffer RWTexture1D RWTexture1DArray RWTexture2D RWTexture2DArray "
+      "RWTexture3D SamplerComparisonState SamplerState StructuredBuffer SubpassInput SubpassInputMS Texture1D "
+      "Texture1DArray Texture2D Texture2DArray Texture2DMS Texture2DMSArray Texture3D TextureBuffer TextureCube "
+      "TextureCubeArray TriangleStream "
+      "frac lerp rsqrt firstbitlow asfloat asuint");
+  // Of Metal, what else C++14 has, and functions that are printed for GLSL's.
+  static const std::set<std::string> msl = wordsOf(
+      "constant device thread vertex fragment kernel sampler near far threadgroup constexpr decltype nullptr "
+      "noexcept alignas alignof static_assert metal visible ray_data "
+      "and and_eq bitand bitor compl not not_eq or or_eq xor xor_eq char16_t char32_t wchar_t thread_local "
+      "typeid "
+      "as_type ctz rsqrt");
+  if (language != Language::Hlsl && language != Language::Msl) return false;
+  return both.contains(name) || (language == Language::Hlsl ? hlsl : msl).contains(name);
+}
+
+// "float1", "int2x3"
+bool isShapedType(const std::string& name) {
+  for (const char* base : {"bool", "int", "uint", "float", "half", "double"}) {
+    if (!name.starts_with(base)) continue;
+    const std::string shape = name.substr(std::string_view(base).size());
+    if (!shape.empty() && shape.find_first_not_of("1234x") == std::string::npos) return true;
+  }
+  return false;
 }
 
 bool startsWithDigit(const std::string& text) {
@@ -70,10 +110,13 @@ class Printer {
     if (locals_.contains(text)) return local(text);
     if (const auto found = options_.names.find(text); found != options_.names.end()) return found->second;
     const std::string own = nameIn(options_.language, text);
-    return isReserved(options_.language, own) ? own + "_" : own;
+    return own == text && isReserved(options_.language, own) ? own + "_" : own;
   }
   // Of members and variables.
-  std::string local(const std::string& text) const { return isReserved(options_.language, text) ? text + "_" : text; }
+  std::string local(const std::string& text) const {
+    const bool isCLike = options_.language == Language::Hlsl || options_.language == Language::Msl;
+    return isReserved(options_.language, text) || (isCLike && isShapedType(text)) ? text + "_" : text;
+  }
 
   std::string expr(const Expr& e) const {
     switch (e.kind) {

@@ -1,19 +1,21 @@
 #include "lab/export/visibility_source.h"
 
+#include "base/error.h"
 #include "lab/export/read_glsl.h"
 
 namespace gnomon::code {
 
 namespace {
 
-Program read(const std::map<std::string, std::string>& aliases) {
+Program read(const UserBias* user, const std::map<std::string, std::string>& aliases) {
   ReadOptions options;
   options.aliases = aliases;
   options.publicMembers = true;
+  gpu::ShaderSource source = shaderWith("shadow/unbound_visibility.glsl", user);
   // What the pass binds is left out.
-  const gpu::ShaderSource source{
-      "shadow/unbound_visibility.glsl",
-      {{"shadow/fetch_channels.glsl", ""}, {"shadow/fetch_lookup_tables.glsl", ""}, {"shadow/map_constants.glsl", ""}}};
+  for (const char* bound :
+       {"shadow/fetch_channels.glsl", "shadow/fetch_lookup_tables.glsl", "shadow/map_constants.glsl"})
+    source.overrides[bound] = "";
   Program program = readGlsl(source, options);
   // Of a function that is declared and then defined, the definition.
   std::set<std::string> defined;
@@ -30,7 +32,15 @@ Program read(const std::map<std::string, std::string>& aliases) {
 const Program& readVisibility(const std::map<std::string, std::string>& aliases) {
   static std::map<std::map<std::string, std::string>, Program> known;
   const auto found = known.find(aliases);
-  return found != known.end() ? found->second : known.emplace(aliases, read(aliases)).first->second;
+  return found != known.end() ? found->second : known.emplace(aliases, read(nullptr, aliases)).first->second;
+}
+
+Program readVisibilityWith(const UserBias& user, const std::map<std::string, std::string>& aliases) {
+  try {
+    return read(&user, aliases);
+  } catch (const WorldError& error) {
+    throw WorldError(inUsersWords(error.what(), user));
+  }
 }
 
 void passDown(Program& program, std::set<std::string> users, const Param& param) {

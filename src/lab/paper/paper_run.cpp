@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/progress.h"
 #include "lab/compare/compare_command.h"
 #include "lab/compare/results.h"
@@ -74,6 +75,7 @@ const Session& PaperRun::openCamera(const std::string& camera) {
 const Session& PaperRun::open(const SetupOptions& setup) {
   const std::string key = setup.scene + "\n" + setup.light + "\n" + setup.camera + "\n" + setup.size;
   if (key == opened_) return *session_;
+  throwIfInterrupted();
   Progress(title_, 1).step("opening " + setup.scene);
   opened_.clear();
   session_.reset();  // before the next one takes memory
@@ -121,6 +123,7 @@ Comparison FigureRun::compare(const std::string& name, const CompareOptions& ask
   below_ = folder() + "/" + name;
   if (!run_.options().outDir.empty()) options.outDir = run_.options().outDir / below_;
   Comparison comparison = gnomon::compare(session, options);
+  throwIfInterrupted();  // rows that are missing decide no claim
   run_.addComparison(below_, resultsJson(session, comparison, compareCommand(session.setup(), options)));
   const TruthSummary& truth = comparison.truths.front();
   const Row& row = comparison.rows.front();
@@ -199,6 +202,7 @@ std::vector<FrameCost> timeFrames(const Session& session, const Parameterization
   std::vector<std::vector<double>> mapMs(kinds.size());
   std::vector<std::vector<double>> visibilityMs = mapMs, shadeMs = mapMs, frameMs = mapMs, ratios = mapMs;
   for (int round = -1; round < repeats; ++round) {  // round -1 compiles the pipelines
+    throwIfInterrupted();
     progress.step(round < 0 ? "first frames" : fmt::format("round {} of {} of frames", round + 1, repeats));
     double first = 0.0;
     std::map<std::pair<int, ChannelSet>, double> drawn;  // methods that share a map share what it took

@@ -185,8 +185,9 @@ std::string factsText(const Answers& answers) {
 
 std::string howIntervals(const Answers& answers) {
   return fmt::format(
-      "In brackets: 95% intervals by the bootstrap, {} resamples of whole {} ({} of them), seed {}. {}", kResamples,
-      answers.byScenes ? "scenes" : "views (a camera and a light)", answers.groups, kBootstrapSeed,
+      "Intervals (in brackets, where there is room): 95%, by the bootstrap, {} resamples of whole {} ({} of them), "
+      "seed {}. {}",
+      kResamples, answers.byScenes ? "scenes" : "views (a camera and a light)", answers.groups, kBootstrapSeed,
       answers.byScenes
           ? "Cases of one scene are alike: drawing single cases would make the intervals too narrow."
           : fmt::format("With fewer than {} scenes nothing is said of scenes that were not measured.", kFewScenes));

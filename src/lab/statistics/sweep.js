@@ -62,10 +62,34 @@
     return fill(byId('ranking'), fill(make('div', { class: 'scroll' }), table));
   }
 
+  // Of what is chosen, as data.pairs has them of the whole; without intervals.
+  function chosenPairs(order) {
+    const fits = (wanted, value) => wanted < 0 || wanted === value;
+    const cases = data.cases.filter((one) => fits(choice.scene, one[0]) && fits(choice.map, one[1]) && fits(choice.size, one[2]));
+    const list = [];
+    order.forEach((a, place) => order.slice(place + 1).forEach((b) => {
+      let both = 0, wins = 0, losses = 0, sum = 0;
+      for (const one of cases) {
+        const errorOfA = one[3 + a], errorOfB = one[3 + b];
+        if (errorOfA === null || errorOfB === null) continue;
+        ++both;
+        wins += errorOfA < errorOfB;
+        losses += errorOfB < errorOfA;
+        sum += errorOfB - errorOfA;
+      }
+      if (both) list.push([a, b, both, wins, losses, sum / both, null, null]);
+    }));
+    return list;
+  }
+
   function pairs() {
-    const order = subsetAt(-1, -1, -1).methods.map((row) => row[METHOD]);
+    const isAll = choice.scene < 0 && choice.map < 0 && choice.size < 0, isOfAll = isAll || !data.cases;
+    const subset = isOfAll ? subsetAt(-1, -1, -1) : subsetAt(choice.scene, choice.map, choice.size);
+    byId('pairs-of').textContent = isAll ? 'over all scenes, maps and sizes' : !data.cases ? 'over all scenes, maps and sizes, whatever is chosen above' : subset?.cases === 1 ? 'over the one case chosen above' : `over the ${subset?.cases ?? 0} cases chosen above`;
+    byId('pairs-sure').textContent = isOfAll ? 'Bold: the 95% interval of the mean difference is above 0.' : 'The 95% interval of the mean difference is told over all cases alone.';
+    const order = (subset?.methods ?? []).map((row) => row[METHOD]);
     const found = new Map();
-    for (const [a, b, cases, wins, losses, difference, lower, upper] of data.pairs) {
+    for (const [a, b, cases, wins, losses, difference, lower, upper] of isOfAll ? data.pairs : chosenPairs(order)) {
       const range = lower === null ? '' : ` (${percent(lower)} to ${percent(upper)})`;
       const text = `${data.methods[a]} is better than ${data.methods[b]} in ${wins} of ${cases} cases, worse in ${losses}; mean difference ${percent(difference)}%${range}`;
       found.set(`${a},${b}`, { share: wins / Math.max(wins + losses, 1), text, sure: lower !== null && lower > 0 });
@@ -186,6 +210,7 @@
     plot('frames', FRAME, 'ms');
     heat();
     worst();
+    pairs();
   }
 
   for (const [name, values] of [['scene', data.scenes], ['map', data.maps], ['size', data.sizes]]) {
@@ -198,5 +223,4 @@
   byId('measure').textContent = { bias_error: 'The bias error (acne + leak)', all_wrong: 'All wrong pixels', rmse: 'The RMSE through the filter' }[data.error];
   byId('filters').hidden = byId('scripted').hidden = false;
   draw();
-  pairs();
 })();

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -36,8 +37,8 @@ std::string escaped(const std::string& text) {
 }
 
 // Six digits: a pixel in a million.
-PageJson number(double value) {
-  return std::isfinite(value) ? PageJson(std::stod(fmt::format("{:.6g}", value))) : PageJson(nullptr);
+PageJson number(double value, int digits = 6) {
+  return std::isfinite(value) ? PageJson(std::stod(fmt::format("{:.{}g}", value, digits))) : PageJson(nullptr);
 }
 
 void add(PageJson& list, const Estimate& estimate) {
@@ -78,6 +79,26 @@ PageJson pairJson(const Pair& pair) {
   return list;
 }
 
+// A list a case: scene, map, size, and each method's error, null where it has none; so that the page can tell pairs of
+// what a person chooses. Null where it were megabytes.
+PageJson casesJson(const CaseTable& table) {
+  constexpr size_t kMostNumbers = 400000;
+  constexpr size_t kFirst = 3;
+  std::map<std::tuple<size_t, size_t, size_t>, PageJson> cases;
+  for (const MeasuredCase& one : table.cases) {
+    PageJson& list = cases[{one.view, one.map, one.size}];
+    if (list.is_null()) {
+      list = {one.scene, one.map, one.size};
+      list.insert(list.end(), table.methods.size(), nullptr);
+    }
+    list[kFirst + one.method] = number(one.error, 9);
+    if (cases.size() * table.methods.size() > kMostNumbers) return nullptr;
+  }
+  PageJson json = PageJson::array();
+  for (auto& [place, list] : cases) json.push_back(std::move(list));
+  return json;
+}
+
 PageJson dataOf(const Answers& answers) {
   const CaseTable& table = answers.table;
   PageJson data = PageJson::object();
@@ -89,6 +110,7 @@ PageJson dataOf(const Answers& answers) {
   for (const char* list : {"subsets", "pairs", "worst"}) data[list] = PageJson::array();
   for (const Subset& subset : answers.subsets) data["subsets"].push_back(subsetJson(subset));
   for (const Pair& pair : answers.pairs) data["pairs"].push_back(pairJson(pair));
+  data["cases"] = casesJson(table);
   data["pictures"] = PageJson::object();
   for (const WorstCase& worst : answers.worst) {
     PageJson one = PageJson::object();

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/message.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -63,9 +64,27 @@ void replacePlaces(sql::Database& all, const char* table, const fs::path& part, 
   all.execute(fmt::format("INSERT OR REPLACE INTO place SELECT slot, key FROM part.{} WHERE NOT superseded", table));
 }
 
+// All of it is read, so that what is damaged is told by its own name, before anything is made.
+void checkPart(const fs::path& part) {
+  const Store store(part, sql::Open::ReadOnly);
+  const std::optional<std::string> found = store.database().textOf("PRAGMA quick_check(1)");
+  if (found == "ok") return;
+  // Below a heading, "*** in database main ***".
+  const std::string& told = found.value_or("");
+  const size_t heading = told.starts_with("***") ? told.find('\n') + 1 : 0;
+  throw fileError(part.string(), "is damaged: " + oneLine(told.substr(heading, 160)),
+                  "save what is left with: sqlite3 FILE .recover");
+}
+
 void addPart(sql::Database& all, const fs::path& part, MergeReport& report) {
-  Store(part, sql::Open::ReadOnly);  // that it is one
-  all.prepare("ATTACH ? AS part").with(part.string()).run();
+  try {
+    all.prepare("ATTACH ? AS part").with(part.string()).run();
+  } catch (const WorldError& error) {  // which names the store that is being made
+    if (std::string_view(error.what()).find("is locked") != std::string_view::npos)
+      throw fileError(part.string(), "is locked by another process", "wait until it has ended");
+    throw fileError(part.string(), "cannot be merged: its head is damaged",
+                    "save what is left with: sqlite3 FILE .recover");
+  }
   {
     sql::Transaction transaction(all);
     findConflicts(
@@ -75,8 +94,12 @@ void addPart(sql::Database& all, const fs::path& part, MergeReport& report) {
     findConflicts(all, "medium", "a.integrator", {"rel_rmse", "rel_rmse_99"}, report);
     replacePlaces(all, "result", part, report);
     replacePlaces(all, "medium", part, report);
-    report.rows += static_cast<size_t>(all.integerOf("SELECT count(*) FROM part.result"));
-    const int64_t before = all.integerOf("SELECT count(*) FROM main.result");
+    const auto rowsOf = [&](const char* store) {
+      return static_cast<size_t>(all.integerOf(
+          fmt::format("SELECT (SELECT count(*) FROM {0}.result) + (SELECT count(*) FROM {0}.medium)", store)));
+    };
+    report.rows += rowsOf("part");
+    const size_t before = rowsOf("main");
     for (const char* table : {"tested", "result", "medium", "picture", "worst", "failure"})
       all.execute(fmt::format("INSERT OR IGNORE INTO main.{0} SELECT * FROM part.{0}", table));
     // Of times of one machine the newer.
@@ -85,7 +108,7 @@ void addPart(sql::Database& all, const fs::path& part, MergeReport& report) {
         "gbuffer_ms = excluded.gbuffer_ms, build_ms = excluded.build_ms, shade_ms = excluded.shade_ms, rounds = "
         "excluded.rounds, at = excluded.at WHERE excluded.at > timing.at");
     all.execute("INSERT OR IGNORE INTO main.note SELECT name, value FROM part.note WHERE name NOT LIKE 'shard %'");
-    report.added += static_cast<size_t>(all.integerOf("SELECT count(*) FROM main.result") - before);
+    report.added += rowsOf("main") - before;
     transaction.commit();
   }
   all.execute("DETACH part");
@@ -132,12 +155,13 @@ void removeWithJournal(const fs::path& path) {
 
 MergeReport mergeStores(const std::vector<fs::path>& parts, const fs::path& out) {
   checkOutput(out);
-  const fs::path folder = out.parent_path().empty() ? "." : out.parent_path();
-  fs::create_directories(folder);
-  for (const fs::path& part : parts)
-    if (!fs::exists(part)) throw fileError(part.string(), "does not exist", "name stores that gnomon sweep wrote");
+  for (const fs::path& part : parts) checkPart(part);
+  if (fs::exists(out) && !fs::is_regular_file(out))
+    throw fileError(out.string(), "is a device or a pipe, and no file", "name a file");
   if (Workers::anyAt(out))
     throw fileError(out.string(), "is being worked on by another process", "wait until gnomon sweep has ended");
+  const fs::path folder = out.parent_path().empty() ? "." : out.parent_path();
+  fs::create_directories(folder);
   const fs::path aside = asideIn(folder);
   MergeReport report;
   try {

@@ -49,15 +49,15 @@ void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
 }
 
 Database::Database(const std::filesystem::path& path, Open how) : path_(path) {
-  const int flags = how == Open::ReadOnly   ? SQLITE_OPEN_READONLY
-                    : how == Open::Existing ? SQLITE_OPEN_READWRITE
-                                            : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  // Who may only read leaves a journal (-wal, -shm) that he had to make; who may write, and does not, takes it away.
+  const int flags = SQLITE_OPEN_READWRITE | (how == Open::Create ? SQLITE_OPEN_CREATE : 0);
   sqlite3* database = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &database, flags, nullptr);
   database_.reset(database);
   if (code != SQLITE_OK) fail(code);
   sqlite3_extended_result_codes(database, 1);
   setPatience(kPatienceMs);
+  if (how == Open::ReadOnly) execute("PRAGMA query_only=1");
 }
 
 void Database::setPatience(int ms) {

@@ -77,6 +77,7 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
+// ReadOnly: nothing in it is changed; what a run that was killed left in its journal is taken in, and the journal goes.
 enum class Open { ReadOnly, Existing, Create };
 
 class Database {

@@ -131,7 +131,28 @@ void putCase(const sql::Database& database, const StoredCase& of, const std::opt
 
 }  // namespace
 
-Store::Store(const std::filesystem::path& path, sql::Open how) : database_(path, how) {
+void checkStorePath(const std::filesystem::path& path, sql::Open how) {
+  constexpr std::string_view kMagic("SQLite format 3\0", 16);
+  constexpr const char* kRemedy = "name a file that gnomon sweep wrote";
+  std::error_code failure;
+  const std::filesystem::file_status status = std::filesystem::status(path, failure);
+  if (!std::filesystem::exists(status)) {
+    if (how == sql::Open::Create || !std::filesystem::status_known(status)) return;  // SQLite says more
+    throw fileError(path.string(), "does not exist", kRemedy);
+  }
+  if (std::filesystem::is_directory(status)) throw fileError(path.string(), "is a folder", kRemedy);
+  if (!std::filesystem::is_regular_file(status))
+    throw fileError(path.string(), "is a device or a pipe, and no file", kRemedy);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return;
+  char head[kMagic.size()] = {};
+  file.read(head, sizeof(head));
+  const std::string_view found(head, static_cast<size_t>(file.gcount()));
+  if (found.empty() && how != sql::Open::Create) throw fileError(path.string(), "is empty", kRemedy);
+  if (!found.empty() && found != kMagic) throw fileError(path.string(), "is no SQLite file", kRemedy);
+}
+
+Store::Store(const std::filesystem::path& path, sql::Open how) : database_((checkStorePath(path, how), path), how) {
   const int64_t version = database_.integerOf("PRAGMA user_version");
   const bool isNew =
       version == 0 && how == sql::Open::Create && database_.integerOf("SELECT count(*) FROM sqlite_master") == 0;

@@ -73,7 +73,7 @@ struct StoredMedium {
 
 class Store {
  public:
-  // Throws WorldError: it cannot be made, is none, or of another version.
+  // Throws WorldError: it cannot be made, is none, or of another version. An empty file is one that is yet to be made.
   Store(const std::filesystem::path& path, sql::Open how);
   ~Store();
   Store(const Store&) = delete;
@@ -126,6 +126,10 @@ struct MergeReport {
   // Mixtures: what stores of one sweep should have in common and do not.
   std::vector<std::string> conflicts, replaced, mixtures;
 };
+
+// What keeps a path from being a store, before SQLite opens it: a folder, a device, an empty file where there must be
+// rows, a file of another kind. Throws WorldError.
+void checkStorePath(const std::filesystem::path& path, sql::Open how);
 
 // All rows of `parts` in one new store, aside and renamed to `out`, which may be one of them. Throws WorldError,
 // also where somebody works on `out`.

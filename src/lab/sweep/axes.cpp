@@ -29,7 +29,7 @@ auto at(const Plan& plan, const std::string& where, const Work& work) -> decltyp
   try {
     return work();
   } catch (const UsageError& error) {
-    plan.fail(where, "is wrong: " + oneLine(error.what(), 220));
+    plan.fail(where, "is wrong: " + oneLine(printable(error.what()), 220));
   } catch (const WorldError& error) {
     plan.fail(where, "is wrong: " + oneLine(error.what(), 220));
   }
@@ -172,6 +172,9 @@ void addMaps(const Plan& plan, Axes& axes) {
   }
 }
 
+// Of one item. A case takes milliseconds a method: a minute or so.
+constexpr size_t kMostMethods = 10000;
+
 std::string namesOfKnobs(const BiasMethod& bias) {
   std::string names;
   for (const Knob& knob : knobsOf(bias)) names += (names.empty() ? "" : ", ") + std::string(knob.name);
@@ -210,6 +213,8 @@ void addMethods(const Plan& plan, const PlanBias& item, const BiasMethod& bias,
       plan.fail(where, knobs.empty()
                            ? fmt::format("is none of {}, which has no parameter", bias.name)
                            : fmt::format("is no parameter of {}; {}", bias.name, chooseFrom(name, namesOfKnobs(bias))));
+    if (methods.size() * values.size() > kMostMethods)
+      plan.fail(item.where + ".parameters", fmt::format("makes more than {} methods", kMostMethods));
     std::vector<SweepMethod> product;
     for (const SweepMethod& method : methods) {
       for (const double value : values) {

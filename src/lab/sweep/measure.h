@@ -64,6 +64,10 @@ struct WantedView {
 // `device`: the name and driver of the one that measures.
 WantedView wantedOf(const Plan& plan, const Axes& axes, const Survey& survey, const SweepView& view,
                     const Machine& machine);
+// What of a view is not in the store.
+WantedView missingOf(const WantedView& wanted, Store& store);
+// This process, as it measures.
+Machine machineOf(const gpu::Device& device, const SweepOptions& options);
 
 // Measures views one after another; neighbours share what they can.
 class SweepMeasurer {

@@ -196,7 +196,7 @@ Plan parsePlan(const std::filesystem::path& path, const std::string& text) {
 }
 
 Plan readPlan(const std::filesystem::path& path) {
-  return parsePlan(path, readFile(path, kMostPlanBytes));
+  return parsePlan(path, readRegularFile(path, kMostPlanBytes));
 }
 
 std::string planJsonSchema() {

@@ -7,8 +7,12 @@
 #include "scene/generate.h"
 #include "scene/gltf_buffers.h"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <type_traits>
 
+#include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 
 namespace gnomon {
@@ -20,69 +24,63 @@ using Json = nlohmann::json;
 
 constexpr const char* kNote = "survey ";
 
-template <typename T>
-Json numbersOf(const T* values, int count) {
-  Json list = Json::array();
-  for (int i = 0; i < count; ++i) list.push_back(static_cast<double>(values[i]));
-  return list;
+template <class T, class Wanted>
+concept MaybeConst = std::is_same_v<std::remove_const_t<T>, Wanted>;
+
+// member(name, value) for each, of what writes them and of what reads them.
+void visit(MaybeConst<Chosen<Light>> auto& light, const auto& member) {
+  member("name", light.name);
+  member("text", light.text);
+  member("own_name", light.thing.name);
+  member("path", light.thing.path);
+  member("type", light.thing.type);
+  member("position", light.thing.positionW);
+  member("direction", light.thing.directionW);
+  member("color", light.thing.color);
+  member("intensity", light.thing.intensity);
+  member("inner", light.thing.innerConeRad);
+  member("outer", light.thing.outerConeRad);
 }
 
-void readNumbers(const Json& list, float* values, int count) {
-  for (int i = 0; i < count; ++i) values[i] = list.at(static_cast<size_t>(i)).get<float>();
+void visit(MaybeConst<Chosen<Camera>> auto& camera, const auto& member) {
+  member("name", camera.name);
+  member("text", camera.text);
+  member("own_name", camera.thing.name);
+  member("path", camera.thing.path);
+  member("world_from_eye", camera.thing.worldFromEye);
+  member("fov", camera.thing.yFovRad);
+  member("near", camera.thing.zNear);
+  member("aspect", camera.thing.aspect);
 }
 
-Json jsonOf(const Chosen<Light>& light) {
+// Vectors and matrices are lists of numbers.
+template <class T>
+concept OfFloats = std::is_same_v<T, glm::vec3> || std::is_same_v<T, glm::mat4>;
+
+template <class Place>
+Json jsonOf(const Place& place) {
   Json json = Json::object();
-  json["name"] = light.name;
-  json["text"] = light.text;
-  json["own_name"] = light.thing.name;
-  json["path"] = light.thing.path;
-  json["type"] = static_cast<int>(light.thing.type);
-  json["position"] = numbersOf(&light.thing.positionW.x, 3);
-  json["direction"] = numbersOf(&light.thing.directionW.x, 3);
-  json["color"] = numbersOf(&light.thing.color.x, 3);
-  json["intensity"] = static_cast<double>(light.thing.intensity);
-  json["inner"] = static_cast<double>(light.thing.innerConeRad);
-  json["outer"] = static_cast<double>(light.thing.outerConeRad);
+  visit(place, [&json]<class T>(const char* name, const T& value) {
+    if constexpr (OfFloats<T>) {
+      const float* first = glm::value_ptr(value);
+      json[name] = std::vector<float>(first, first + sizeof(T) / sizeof(float));
+    } else {
+      json[name] = value;
+    }
+  });
   return json;
 }
 
-Chosen<Light> lightOf(const Json& json) {
-  Chosen<Light> light{json.at("name"), json.at("text"), {}};
-  light.thing.name = json.at("own_name");
-  light.thing.path = json.at("path");
-  light.thing.type = static_cast<LightType>(json.at("type").get<int>());
-  readNumbers(json.at("position"), &light.thing.positionW.x, 3);
-  readNumbers(json.at("direction"), &light.thing.directionW.x, 3);
-  readNumbers(json.at("color"), &light.thing.color.x, 3);
-  light.thing.intensity = json.at("intensity");
-  light.thing.innerConeRad = json.at("inner");
-  light.thing.outerConeRad = json.at("outer");
-  return light;
-}
-
-Json jsonOf(const Chosen<Camera>& camera) {
-  Json json = Json::object();
-  json["name"] = camera.name;
-  json["text"] = camera.text;
-  json["own_name"] = camera.thing.name;
-  json["path"] = camera.thing.path;
-  json["world_from_eye"] = numbersOf(&camera.thing.worldFromEye[0][0], 16);
-  json["fov"] = static_cast<double>(camera.thing.yFovRad);
-  json["near"] = static_cast<double>(camera.thing.zNear);
-  json["aspect"] = camera.thing.aspect;
-  return json;
-}
-
-Chosen<Camera> cameraOf(const Json& json) {
-  Chosen<Camera> camera{json.at("name"), json.at("text"), {}};
-  camera.thing.name = json.at("own_name");
-  camera.thing.path = json.at("path");
-  readNumbers(json.at("world_from_eye"), &camera.thing.worldFromEye[0][0], 16);
-  camera.thing.yFovRad = json.at("fov");
-  camera.thing.zNear = json.at("near");
-  camera.thing.aspect = json.at("aspect");
-  return camera;
+template <class Place>
+Place placeOf(const Json& json) {
+  Place place{};
+  visit(place, [&json]<class T>(const char* name, T& value) {
+    if constexpr (OfFloats<T>)
+      std::ranges::copy(json.at(name).get<std::array<float, sizeof(T) / sizeof(float)>>(), glm::value_ptr(value));
+    else
+      value = json.at(name).get<T>();
+  });
+  return place;
 }
 
 void addUris(const Json& json, std::set<std::string>& uris) {
@@ -105,8 +103,8 @@ SceneSurvey surveyOf(const Json& json) {
   survey.scene.hash = json.at("hash");
   survey.scene.triangles = json.at("triangles");
   survey.scene.diagonal = json.at("diagonal");
-  for (const Json& light : json.at("lights")) survey.scene.lights.push_back(lightOf(light));
-  for (const Json& camera : json.at("cameras")) survey.scene.cameras.push_back(cameraOf(camera));
+  for (const Json& light : json.at("lights")) survey.scene.lights.push_back(placeOf<Chosen<Light>>(light));
+  for (const Json& camera : json.at("cameras")) survey.scene.cameras.push_back(placeOf<Chosen<Camera>>(camera));
   for (const Json& where : json.at("found")) survey.found.insert(where.get<std::string>());
   for (const Json& pair : json.at("missing")) survey.missing.emplace_back(pair.at(0), pair.at(1));
   return survey;

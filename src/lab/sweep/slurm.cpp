@@ -19,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kShardScript = "shard.sh";
+constexpr const char* kCollectScript = "collect.sh";
+
 std::string commandOf(const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : " ") + shellWord(word);
@@ -51,6 +54,28 @@ std::string sbatch(const SlurmRun& run, const std::vector<std::string>& own, con
   return jobNumberFrom(commandOf(words));
 }
 
+// What a submission writes before sbatch is asked; gone again where nothing was submitted.
+class Preparations {
+ public:
+  explicit Preparations(const fs::path& folder) {
+    for (fs::path at = folder; !at.empty() && !fs::exists(at) && at != at.parent_path(); at = at.parent_path())
+      made_.push_back(at);
+  }
+  ~Preparations() {
+    if (isKept_ || made_.empty()) return;
+    std::error_code failure;
+    for (const char* script : {kShardScript, kCollectScript}) fs::remove(made_.front() / script, failure);
+    for (const fs::path& folder : made_) fs::remove(folder, failure);  // where it is empty
+  }
+  Preparations(const Preparations&) = delete;
+  Preparations& operator=(const Preparations&) = delete;
+  void keep() { isKept_ = true; }
+
+ private:
+  std::vector<fs::path> made_;  // folders that were not there, the innermost first
+  bool isKept_ = false;
+};
+
 }  // namespace
 
 std::filesystem::path SlurmRun::part(int shard) const {
@@ -67,7 +92,7 @@ std::vector<int> missingShards(const SlurmRun& run) {
     bool isDone = false;
     try {
       isDone = fs::exists(run.part(shard)) &&
-               Store(run.part(shard), sql::Open::Existing).note(shardNote(run.planHash, shard, run.shards)) == "done";
+               Store(run.part(shard), sql::Open::ReadOnly).note(shardNote(run.planHash, shard, run.shards)) == "done";
     } catch (const WorldError&) {  // what is damaged is not done
     }
     if (!isDone) missing.push_back(shard);
@@ -76,16 +101,19 @@ std::vector<int> missingShards(const SlurmRun& run) {
 }
 
 SlurmJobs submitToSlurm(const SlurmRun& run) {
+  const fs::path store = fs::absolute(run.store);
+  checkOutput(store);
+  if (fs::exists(store)) Store(store, sql::Open::ReadOnly);  // that it can be merged with
   const fs::path folder = fs::absolute(run.folder());
+  Preparations preparations(folder);
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure) throw fileError(folder.string(), failure.message(), "name a --db in a folder that can be written");
   SlurmJobs jobs{.array = {}, .collect = {}, .shards = missingShards(run)};
   const std::string words = commandOf(run.words);
-  const std::string store = shellWord(fs::absolute(run.store).string());
   std::vector<std::string> dependency;
   if (!jobs.shards.empty()) {
-    const fs::path script = folder / "shard.sh";
+    const fs::path script = folder / kShardScript;
     writeTextFile(script,
                   fmt::format("#!/bin/sh\n# A shard of the sweep: made by gnomon sweep --slurm.\nexec {} --quiet "
                               "--shard \"$SLURM_ARRAY_TASK_ID/{}\" --db {}/part-\"$SLURM_ARRAY_TASK_ID\".db\n",
@@ -94,19 +122,21 @@ SlurmJobs submitToSlurm(const SlurmRun& run) {
                         {"--job-name=gnomon-sweep", fmt::format("--array={}", fmt::join(jobs.shards, ",")),
                          "--output=" + (folder / "shard-%a.log").string(), "--open-mode=append"},
                         script);
+    preparations.keep();  // the array's jobs run in it
     dependency = {"--dependency=afterany:" + jobs.array};
   }
-  const fs::path script = folder / "collect.sh";
+  const fs::path script = folder / kCollectScript;
   std::string sbatchWords;
   for (const std::string& word : run.sbatch) sbatchWords += " --sbatch=" + shellWord(word);
   writeTextFile(script,
                 fmt::format("#!/bin/sh\n# Submits again what is missing, else merges: made by gnomon sweep --slurm.\n"
                             "exec {} --quiet --slurm --shards {} --slurm-collect {}{} --db {}\n",
-                            words, run.shards, run.submission, sbatchWords, store));
+                            words, run.shards, run.submission, sbatchWords, shellWord(store.string())));
   std::vector<std::string> own = {"--job-name=gnomon-collect", "--output=" + (folder / "collect.log").string(),
                                   "--open-mode=append"};
   own.insert(own.end(), dependency.begin(), dependency.end());
   jobs.collect = sbatch(run, own, script);
+  preparations.keep();
   return jobs;
 }
 

@@ -5,10 +5,7 @@
 #include "base/message.h"
 #include "base/progress.h"
 #include "lab/sweep/measure.h"
-#include "lab/sweep/results_version.h"
 #include "lab/sweep/slurm.h"
-
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <new>
@@ -26,29 +23,6 @@ constexpr size_t kMostFailuresInARow = 20;
 
 double secondsSince(Clock::time_point begun) {
   return std::chrono::duration<double>(Clock::now() - begun).count();
-}
-
-Machine machineOf(const gpu::Device& device, const SweepOptions& options) {
-  return {.program = options.program,
-          .results = resultsVersion(),
-          .device = device.info().name,
-          .driver = device.info().driver,
-          .host = machineName()};
-}
-
-// What of a view is not in the store.
-WantedView missingOf(const WantedView& wanted, Store& store) {
-  WantedView missing{.key = wanted.key};
-  const auto isThere = [&](const auto& row) { return store.has(row.key, row.slot); };
-  for (WantedCase one : wanted.cases) {
-    std::erase_if(one.rows, isThere);
-    if (!one.rows.empty() && !store.isEmpty(one.stored.key)) missing.cases.push_back(std::move(one));
-  }
-  for (WantedMedia one : wanted.media) {
-    std::erase_if(one.rows, isThere);
-    if (!one.rows.empty() && !store.isEmpty(one.stored.key)) missing.media.push_back(std::move(one));
-  }
-  return missing;
 }
 
 // Of each method the largest bias errors so far, of which pictures are kept. What other processes on the store add is
@@ -117,8 +91,7 @@ class Runner {
   void runViews(const Survey& survey) {
     std::vector<SweepView> mine;
     for (size_t i = 0; i < survey.views.size(); ++i)
-      if (i % static_cast<size_t>(options_.shards) == static_cast<size_t>(options_.shard))
-        mine.push_back(survey.views[i]);
+      if (options_.isInShard(i)) mine.push_back(survey.views[i]);
     Progress progress("sweep",
                       static_cast<int>(mine.size() * std::max<size_t>(axes_.maps.size() + axes_.media.size(), 1)));
     // Those that others have claimed are looked at once more at the end: their process may have died.
@@ -247,73 +220,6 @@ class Runner {
 
 SweepOutcome runSweep(const Plan& plan, const Axes& axes, Store& store, const SweepOptions& options) {
   return Runner(plan, axes, store, options).run();
-}
-
-SweepEstimate estimateSweep(const Plan& plan, const Axes& axes, Store* store, const SweepOptions& options) {
-  const std::shared_ptr<const gpu::Device> device = gpu::Device::create(options.device);
-  const Machine machine = machineOf(*device, options);
-  StageClock clock;
-  const Clock::time_point begun = Clock::now();
-  const Survey survey = surveyScenes(plan, axes, store, options.program);
-  SweepEstimate estimate{.scenes = survey.scenes.size(), .seconds = secondsSince(begun)};
-  if (store != nullptr) estimate.before = 0;
-  // What is missing: cases by scene and axis of the map.
-  struct Try {
-    SweepView view;
-    WantedView missing;
-  };
-  std::vector<Try> tries;
-  size_t missingCases = 0, missingViews = 0, missingMedia = 0;
-  for (size_t i = 0; i < survey.views.size(); ++i) {
-    if (i % static_cast<size_t>(options.shards) != static_cast<size_t>(options.shard)) continue;
-    const WantedView wanted = wantedOf(plan, axes, survey, survey.views[i], machine);
-    WantedView missing = store != nullptr ? missingOf(wanted, *store) : wanted;
-    ++estimate.views;
-    estimate.cases += wanted.cases.size() + wanted.media.size();
-    estimate.rows += wanted.rowCount();
-    if (estimate.before) *estimate.before += wanted.rowCount() - missing.rowCount();
-    if (missing.rowCount() == 0) continue;
-    ++missingViews;
-    missingCases += missing.cases.size();
-    missingMedia += missing.media.size();
-    if (tries.empty() || tries.back().view.scene != survey.views[i].scene)
-      tries.push_back({survey.views[i], std::move(missing)});
-  }
-  // The smallest scene, the middle one, the largest.
-  std::ranges::sort(tries, {}, [&](const Try& one) { return survey.scenes[one.view.scene].triangles; });
-  std::vector<size_t> chosen;
-  for (const size_t at : {size_t{0}, tries.size() / 2, tries.size() - std::min<size_t>(tries.size(), 1)})
-    if (at < tries.size() && std::ranges::find(chosen, at) == chosen.end()) chosen.push_back(at);
-  SweepMeasurer measurer(plan, axes, survey, device, clock);
-  double viewSeconds = 0.0, caseSeconds = 0.0, mediaSeconds = 0.0;
-  size_t cases = 0, media = 0;
-  for (const size_t at : chosen) {
-    Clock::time_point start = Clock::now();
-    measurer.enter(tries[at].view);
-    viewSeconds += secondsSince(start);
-    const std::vector<WantedCase>& all = tries[at].missing.cases;
-    for (size_t i = 0; i < all.size(); i += std::max<size_t>(all.size() / 2, 1)) {
-      throwIfInterrupted();
-      start = Clock::now();
-      measurer.measure(all[i], {});
-      caseSeconds += secondsSince(start);
-      ++cases;
-    }
-    if (tries[at].missing.media.empty() || media > 0) continue;
-    start = Clock::now();
-    measurer.measureMedia(tries[at].missing.media.front());
-    mediaSeconds += secondsSince(start);
-    ++media;
-  }
-  const auto each = [](double seconds, size_t count) { return count > 0 ? seconds / static_cast<double>(count) : 0.0; };
-  estimate.tried = cases + media;
-  estimate.seconds += each(viewSeconds, chosen.size()) * static_cast<double>(missingViews) +
-                      each(caseSeconds, cases) * static_cast<double>(missingCases) +
-                      each(mediaSeconds, media) * static_cast<double>(missingMedia);
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  estimate.peakBytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
-  return estimate;
 }
 
 }  // namespace gnomon

@@ -15,7 +15,13 @@ struct SweepOptions {
   gpu::DeviceOptions device;
   std::string program;        // what the program says it is, in rows
   std::string planHash;       // of the plan and what was added to it, for the store's note of a shard that is done
-  int shard = 0, shards = 1;  // of the views, those whose number is `shard` modulo `shards`
+  int shard = 0, shards = 1;  // of the views (isInShard)
+
+  // Of each `shards` views in turn one, another place of them each time: views of one map may be every second one.
+  bool isInShard(size_t view) const {
+    const auto count = static_cast<size_t>(shards);
+    return (view + view / count) % count == static_cast<size_t>(shard);
+  }
 };
 
 // Where the time went, by name: seconds of wall clock.
@@ -45,7 +51,7 @@ struct SweepEstimate {
   size_t tried = 0;              // cases
   double peakBytes = 0.0;        // of memory
 };
-// Measures a case or two of up to three scenes, and stores nothing of them. `store` may be null.
+// Measures a few cases of the plan's maps and scenes, and stores nothing of them (estimate.h). `store` may be null.
 SweepEstimate estimateSweep(const Plan& plan, const Axes& axes, Store* store, const SweepOptions& options);
 
 }  // namespace gnomon

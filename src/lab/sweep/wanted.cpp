@@ -1,6 +1,7 @@
 #include "lab/sweep/measure.h"
 
 #include "lab/store/content_hash.h"
+#include "lab/sweep/results_version.h"
 
 #include <fmt/format.h>
 
@@ -169,6 +170,28 @@ size_t WantedView::rowCount() const {
   for (const WantedCase& one : cases) count += one.rows.size();
   for (const WantedMedia& one : media) count += one.rows.size();
   return count;
+}
+
+Machine machineOf(const gpu::Device& device, const SweepOptions& options) {
+  return {.program = options.program,
+          .results = resultsVersion(),
+          .device = device.info().name,
+          .driver = device.info().driver,
+          .host = machineName()};
+}
+
+WantedView missingOf(const WantedView& wanted, Store& store) {
+  WantedView missing{.key = wanted.key};
+  const auto isThere = [&](const auto& row) { return store.has(row.key, row.slot); };
+  for (WantedCase one : wanted.cases) {
+    std::erase_if(one.rows, isThere);
+    if (!one.rows.empty() && !store.isEmpty(one.stored.key)) missing.cases.push_back(std::move(one));
+  }
+  for (WantedMedia one : wanted.media) {
+    std::erase_if(one.rows, isThere);
+    if (!one.rows.empty() && !store.isEmpty(one.stored.key)) missing.media.push_back(std::move(one));
+  }
+  return missing;
 }
 
 WantedView wantedOf(const Plan& plan, const Axes& axes, const Survey& survey, const SweepView& view,

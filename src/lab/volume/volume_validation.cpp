@@ -1,6 +1,7 @@
 #include "lab/volume/volume_validation.h"
 
 #include "base/check.h"
+#include "base/interrupt.h"
 #include "base/progress.h"
 #include "lab/picture/pictures.h"
 #include "lab/volume/volume_pictures.h"
@@ -93,16 +94,20 @@ bool VolumeResult::sound() const {
 VolumeResult examineVolume(const Session& session, const VolumeOptions& options) {
   const bool traces = options.validate || !options.outDir.empty();
   Progress progress("vsv", 2 + (traces ? 1 : 0) + (options.validate ? 1 : 0) + (options.vdb.empty() ? 0 : 1));
+  const auto step = [&](const std::string& what) {
+    throwIfInterrupted();
+    progress.step(what);
+  };
   ShadowPasses passes(session);
   VolumeResult result;
-  progress.step("building the volume");
+  step("building the volume");
   LightOnMap lit = openLight(session, passes, volumeParameterization(),
                              {.side = options.mapSide, .options = options.map, .cull = options.cull});
   const ShadowVolume& volume = build(lit, result.times);
   result.columns = volume.fitted();
   result.light = lit.source();
 
-  progress.step("reading it back");
+  step("reading it back");
   StopWatch watch;
   const DenseVolume measured = denseOf(downloadBits(session.device(), volume));
   result.times.download = watch.lap();
@@ -118,16 +123,17 @@ VolumeResult examineVolume(const Session& session, const VolumeOptions& options)
 
   const glsl::LightFrame& frame = result.columns.frame;
   if (traces) {
-    progress.step("tracing every column");
+    step("tracing every column");
     watch.lap();
     const ExactVolume exact = traceColumns(session.tracer(), frame, measured.grid);
     result.times.trace = watch.lap();
     if (options.validate) {
-      progress.step("comparing");
+      step("comparing");
       result.validation = validate(session, volume, measured, grid, exact, result.times);
     }
     if (!options.outDir.empty()) result.pictures = writePictures(lit, measured, exact.boundaries, options.outDir);
   }
+  throwIfInterrupted();
   if (!options.vdb.empty()) {
     progress.step("writing " + options.vdb.string());
     watch.lap();

@@ -1,12 +1,10 @@
 // What `gnomon export` writes: every file is compiled, and gives the very visibility that Gnomon's own pass gives.
-#include "lab/export/export_shader.h"
 #include "lab/export/public_headers.h"
-#include "omni/cube_map.h"
-#include "omni/paraboloid_map.h"
-#include "planar/planar_map.h"
 #include "scene/mesh_links.h"
 #include "shadow/map_image.h"
+#include "shadow/user_bias.h"
 #include "tests/judge/lit_map.h"
+#include "tests/lab/export/what_to_export.h"
 
 #include "tests/base/places.h"
 
@@ -22,39 +20,12 @@ namespace gnomon {
 namespace {
 
 using code::Language;
+using test::choiceOf;
+using test::Kind;
+using test::kinds;
+using test::kUserHead;
 using test::LitMap;
-
-struct Kind {
-  const char* label;
-  const char* name;
-  bool radial;
-  int cascades;
-  const Parameterization& map;
-  MapOptions options;
-};
-
-std::vector<Kind> kinds() {
-  return {{"spot", "spot", false, 1, spotParameterization(), {}},
-          {"cube", "cube", false, 1, cubeParameterization(), {}},
-          {"paraboloid", "paraboloid", false, 1, paraboloidParameterization(), {}},
-          {"directional", "directional", false, 1, directionalParameterization(), {}},
-          {"cube, radial", "cube", true, 1, cubeParameterization(), {kCubeDepth(CubeDepth::Radial)}},
-          {"cascades", "directional", false, 3, directionalParameterization(), {kCascades(3)}}};
-}
-
-ExportChoice choiceOf(const Kind& kind, const BiasMethod& bias, const Filter& filter, Language language) {
-  ExportChoice choice;
-  choice.map = exportedMap(kind.name, kind.radial, kind.cascades);
-  choice.bias = &bias;
-  choice.filter = &filter;
-  choice.language = language;
-  choice.command = "gnomon export";
-  return choice;
-}
-
-bool mentions(const std::string& text, const std::string& what) {
-  return text.find(what) != std::string::npos;
-}
+using test::mentions;
 
 // How the file's functions are called: by the names in its head.
 std::string calls(const std::string& text, const char* pixel, const char* place, const char* normal) {
@@ -144,6 +115,127 @@ TEST(Export, CompilesForEveryMapBiasAndFilter) {
                                           test::inSource(GNOMON_TEST_FOLDER), (folder.path() / "all.cpp").string(),
                                           (folder.path() / "errors").string());
   EXPECT_EQ(std::system(command.c_str()), 0) << readFile(folder.path() / "errors").substr(0, 2000);
+}
+
+std::unique_ptr<const UserBias> sampleBias(const char* name) {
+  return loadUserBias(test::inSource(std::string("samples/") + name));
+}
+
+// A bias of one's own is a bias as any other.
+TEST(Export, CompilesWithAUsersBias) {
+  for (const char* file : {"my_bias.glsl", "filament_bias.glsl"})
+    for (const Kind& kind : kinds())
+      for (const Language language : {Language::Glsl, Language::GlslEs, Language::Hlsl}) {
+        const auto user = sampleBias(file);
+        const std::string text = exportShader(choiceOf(kind, user->method, filters()[1], language)).text;
+        EXPECT_EQ(compiled(language, text), "") << file << " " << kind.label;
+        for (const Knob& knob : user->method.knobs)
+          EXPECT_TRUE(mentions(text, "kGnomon" + knobConstant(knob.name).substr(1))) << knob.name;
+      }
+}
+
+// The head's usage lines have the arguments that the functions take.
+TEST(Export, ItsHeadSaysHowItIsCalled) {
+  for (const BiasMethod& bias : biasMethods())
+    for (const Language language : {Language::Glsl, Language::Msl}) {
+      const std::string text = exportShader(choiceOf(kinds()[1], bias, filters()[2], language)).text;
+      for (const char* function : {"gnomonReceiverAt(", "gnomonVisibility("}) {
+        const auto commas = [&](const char* before) {
+          const size_t at = text.find(std::string(before) + function);
+          const std::string_view call = std::string_view(text).substr(at, text.find(')', at) - at);
+          EXPECT_NE(at, std::string::npos) << bias.name;
+          return std::count(call.begin(), call.end(), ',');
+        };
+        EXPECT_EQ(commas("= "), commas(function[6] == 'R' ? "GnomonReceiver " : "float "))
+            << bias.name << " " << function;
+      }
+      EXPECT_EQ(mentions(text, "normalW is its"), mentions(text, " normalW)") || mentions(text, " normalW, "))
+          << bias.name;
+    }
+}
+
+// What Gnomon measures is what glslang takes.
+TEST(Export, TheBranchThatIsMeasuredIsExported) {
+  for (const char* undefined : {"__VERSION__", "GL_SPIRV", "__cplusplus"}) {
+    const auto mine = readUserBias("mine.glsl", fmt::format("{} {{\n#ifdef {}\n  return tap.z1 > 0.75f;\n#else\n  "
+                                                            "return tap.z1 > 0.25f;\n#endif\n}}\n",
+                                                            kUserHead, undefined));
+    const std::string text = exportShader(choiceOf(kinds()[1], mine->method, filters()[0], Language::Glsl)).text;
+    EXPECT_TRUE(mentions(text, "0.25f") && !mentions(text, "0.75f")) << undefined;
+  }
+  const auto user = readUserBias("mine.glsl", fmt::format("#ifdef VULKAN\n{0} {{ return tap.z1 > 0.25f; }}\n#else\n{0} "
+                                                          "{{ return tap.z1 > 0.75f; }}\n#endif\n",
+                                                          kUserHead));
+  const std::string text = exportShader(choiceOf(kinds()[1], user->method, filters()[0], Language::Glsl)).text;
+  EXPECT_TRUE(mentions(text, "0.25f"));
+  EXPECT_FALSE(mentions(text, "0.75f"));
+}
+
+TEST(Export, WordsOfALanguageAreNoNamesThere) {
+  std::string chain = "float first = tap.z1;", last = "first";
+  for (const char* word : {"matrix",
+                           "vector",
+                           "string",
+                           "device",
+                           "constant",
+                           "kernel",
+                           "vertex",
+                           "thread",
+                           "compile",
+                           "pass",
+                           "point",
+                           "new",
+                           "delete",
+                           "private",
+                           "operator",
+                           "float1",
+                           "int2x3",
+                           "frac",
+                           "lerp",
+                           "rsqrt",
+                           "asfloat",
+                           "asuint",
+                           "firstbitlow",
+                           "Texture2D",
+                           "Texture2DArray",
+                           "Buffer",
+                           "StructuredBuffer",
+                           "RWBuffer",
+                           "and",
+                           "or",
+                           "not",
+                           "xor_eq",
+                           "bitand",
+                           "compl",
+                           "wchar_t",
+                           "char16_t",
+                           "export",
+                           "typeid",
+                           "as_type",
+                           "ctz"}) {
+    chain += fmt::format(" float {} = {} + 1.0f;", word, last);
+    last = word;
+  }
+  const auto user = readUserBias("mine.glsl", fmt::format("{} {{ {} return {} > 0.5f; }}\n", kUserHead, chain, last));
+  const auto textOf = [&](Language language) {
+    return exportShader(choiceOf(kinds()[1], user->method, filters()[0], language)).text;
+  };
+  EXPECT_TRUE(mentions(textOf(Language::Hlsl), "float matrix_ = "));
+  EXPECT_TRUE(mentions(textOf(Language::Msl), "float device_ = "));
+  EXPECT_TRUE(mentions(textOf(Language::Msl), "float and_ = "));
+  EXPECT_TRUE(mentions(textOf(Language::Msl), "float as_type_ = "));
+  EXPECT_TRUE(mentions(textOf(Language::Glsl), "float matrix = "));
+  EXPECT_EQ(compiled(Language::Hlsl, textOf(Language::Hlsl)), "");
+}
+
+// Whole, as a reader would paste it; the version and the extension come from the preamble of our shaders.
+TEST(Export, TheDocumentationsExampleCompiles) {
+  const std::string page = readFile(test::inSource("docs/glsl.md"));
+  const size_t begin = page.find("#include \"gnomon/glsl/visibility.glsl\"", page.find("#version 460"));
+  gpu::ShaderSource source{"example.comp.glsl",
+                           {{"example.comp.glsl", page.substr(begin, page.find("```", begin) - begin)}}};
+  for (const auto& [name, text] : publicHeaders()) source.overrides["gnomon/glsl/" + name] = text;
+  EXPECT_FALSE(gpu::compileShader(source).empty());
 }
 
 // Instances and alpha masks: the tables of a mesh, in every language.
@@ -289,6 +381,18 @@ TEST_F(ExportOnTheGpu, GivesItThroughFiltersAndOnOtherMaps) {
       const Compared seen = compare(map, kind, findBias(asked.bias), filters()[asked.filter], 64);
       EXPECT_EQ(seen.different, 0u) << kind.label << " " << asked.bias << " of " << seen.pixels;
       EXPECT_GT(seen.shadowed, seen.pixels / 50) << kind.label << " " << asked.bias;
+    }
+  }
+}
+
+TEST_F(ExportOnTheGpu, GivesItOfAUsersBias) {
+  for (const Kind& kind : {kinds()[1], kinds()[3]}) {
+    LitMap map(device(), "contact", kind.map, 96, {.side = 64, .options = kind.options});
+    for (const char* file : {"my_bias.glsl", "filament_bias.glsl"}) {
+      const auto user = sampleBias(file);
+      const Compared seen = compare(map, kind, user->method, filters()[0], 64);
+      EXPECT_EQ(seen.different, 0u) << kind.label << " " << file << " of " << seen.pixels;
+      EXPECT_GT(seen.shadowed, seen.pixels / 50) << kind.label << " " << file;
     }
   }
 }

@@ -1,6 +1,10 @@
 #pragma once
 // See parallel_for.h.
 
+#ifdef GNOMON_ONETBB
+#include_next <tbb/blocked_range.h>
+#else
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -31,3 +35,5 @@ class blocked_range {
 };
 
 }  // namespace tbb
+
+#endif

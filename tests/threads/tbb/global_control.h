@@ -1,6 +1,10 @@
 #pragma once
 // See parallel_for.h. What it limits, the results do not depend on.
 
+#ifdef GNOMON_ONETBB
+#include_next <tbb/global_control.h>
+#else
+
 #include <cstddef>
 
 namespace tbb {
@@ -12,3 +16,5 @@ class global_control {
 };
 
 }  // namespace tbb
+
+#endif

@@ -1,6 +1,11 @@
 #pragma once
 // oneTBB's algorithms as Gnomon uses them, on std::thread. ThreadSanitizer sees nothing of what Debian's libtbb does to
-// order its threads, and reports every task as a race; these it sees through (tools/races).
+// order its threads, and reports every task as a race; these it sees through (tools/races). Files
+// that include OpenVDB's headers, which use all of oneTBB, have GNOMON_ONETBB defined and get oneTBB's own.
+
+#ifdef GNOMON_ONETBB
+#include_next <tbb/parallel_for.h>
+#else
 
 #include <algorithm>
 #include <atomic>
@@ -34,8 +39,10 @@ void parallel_for(Index first, Index last, const Body& body) {
 
 template <class Value, class Body>
 void parallel_for(const blocked_range<Value>& range, const Body& body) {
-  const std::vector<blocked_range<Value>> parts = range.parts();
+  const std::vector<blocked_range<Value> > parts = range.parts();
   gnomonOnThreads(parts.size(), [&](size_t i) { body(parts[i]); });
 }
 
 }  // namespace tbb
+
+#endif

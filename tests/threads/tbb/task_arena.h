@@ -1,6 +1,10 @@
 #pragma once
 // See parallel_for.h.
 
+#ifdef GNOMON_ONETBB
+#include_next <tbb/task_arena.h>
+#else
+
 namespace tbb {
 
 class task_arena {
@@ -13,3 +17,5 @@ class task_arena {
 };
 
 }  // namespace tbb
+
+#endif
