@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/process_memory.h"
 #include "base/sandbox.h"
+#include "base/sanitizers.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,5 +1,7 @@
 #include "base/sandbox.h"
 
+#include "base/sanitizers.h"
+
 #include <seccomp.h>
 #include <sys/mman.h>
 #include <unistd.h>

@@ -94,7 +94,7 @@ void setUserKnob(const std::string& text, const std::vector<std::shared_ptr<cons
   const std::string name = named ? text.substr(0, equals) : "";
   const float value = parseKnobValue(text, named ? text.substr(equals + 1) : text);
   bool found = false;
-  std::string known;
+  std::vector<std::string> known;
   for (const auto& user : users) {
     const BiasMethod& method = user->method;
     if (method.knobs.empty() && (!named || users.size() == 1))
@@ -104,15 +104,16 @@ void setUserKnob(const std::string& text, const std::vector<std::shared_ptr<cons
       throw UsageError(
           fmt::format("--bias-file-knob {}: {} has {} parameters; write NAME=VALUE, where NAME is one of {}", text,
                       user->path, method.knobs.size(), knobNames(method)));
-    known += (known.empty() || method.knobs.empty() ? "" : ", ") + knobNames(method);
     for (const Knob& knob : method.knobs) {
+      if (std::ranges::find(known, knob.name) == known.end()) known.emplace_back(knob.name);
       if (named && name != knob.name) continue;
       knobs.push_back({&knob, checkedKnob("--bias-file-knob " + std::string(knob.name), knob, value)});
       found = true;
     }
   }
   if (!found)
-    throw UsageError(fmt::format("--bias-file-knob {}: no such parameter; {}", text, chooseFrom(name, known)));
+    throw UsageError(fmt::format("--bias-file-knob {}: no such parameter; {}", text,
+                                 chooseFrom(name, fmt::format("{}", fmt::join(known, ", ")))));
 }
 
 namespace {
@@ -145,7 +146,7 @@ void addUserBiases(const BiasFlags& flags, CompareOptions& options) {
 
 }  // namespace
 
-void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases) {
+void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases, const std::string& howMany) {
   flags.biases = defaultBiases;
   const OptionGroup group(verb, "Bias and filter");
   std::string biases;
@@ -155,23 +156,21 @@ void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases) {
     sentences += fmt::format("  {:<17} {}\n", method.name, method.sentence);
   verb.footer(sentences);
   offersSomeOf(
-      verb.add_option(
-              "--biases", flags.biases,
-              fmt::format("comma-separated, or all: {}. witness has no parameter, and render draws with it", biases))
+      verb.add_option("--biases", flags.biases,
+                      fmt::format("{}: {}. witness has no parameter, and render draws with it", howMany, biases))
           ->capture_default_str(),
       namesOf(biasMethods()));
   offersFiles(verb.add_option(
       "--bias-file", flags.biasFiles,
       "GLSL file with your own bias (docs/add_a_bias.md): compare scores it beside the others and takes several; "
       "render and view draw it in place of the default"));
-  verb.add_option(
-          "--bias-file-knob", flags.biasFileKnobs,
-          "NAME=VALUE: a parameter of your bias, in its unit (VALUE alone if it has only one); default: the file's; "
-          "may be repeated")
+  verb.add_option("--bias-file-knob", flags.biasFileKnobs,
+                  "NAME=VALUE: a parameter of your bias, in its unit, in each file that has it (VALUE alone if it has "
+                  "only one); "
+                  "default: the file's; may be repeated")
       ->allow_extra_args(false);
-  offersSomeOf(
-      verb.add_option("--filters", flags.filters, "comma-separated, or all: " + filterChoices())->capture_default_str(),
-      namesOf(filters()));
+  offersSomeOf(verb.add_option("--filters", flags.filters, howMany + ": " + filterChoices())->capture_default_str(),
+               namesOf(filters()));
   for (const BiasChoice* choice : biasChoices()) {
     const std::string flag = choice->flag();
     flags.choices[flag] = choice->values.front();

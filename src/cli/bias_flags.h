@@ -23,7 +23,8 @@ struct BiasFlags {
   std::map<std::string, float> knobs;          // flag -> value
 };
 // --biases, --bias-file, --bias-file-knob, --filters, --epsilon-at, and a flag for each knob.
-void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases);
+// `howMany`: how many of them the verb takes, "one of".
+void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases, const std::string& howMany);
 
 // A word of --bias-file-knob. NAME=VALUE: of every bias that has such a parameter; VALUE alone: of every one, each of
 // which must have one parameter. Throws UsageError.

@@ -121,7 +121,7 @@ int runCompare(const CompareFlags& flags) {
 Run addCompare(CLI::App* verb) {
   auto flags = std::make_shared<CompareFlags>();
   addSceneFlags(*verb, flags->scene);
-  addMethodFlags(*verb, flags->method, "all");
+  addMethodFlags(*verb, flags->method, "all", "comma-separated", "comma-separated, or all");
   addExposureFlag(*verb, flags->method.map.exposure);
   verb->get_option("--exposure")->group("View and device");
   const OptionGroup group(*verb, "Measurement and output");

@@ -32,7 +32,7 @@ void addMapOptionFlags(CLI::App& verb, MapFlags& flags, const std::vector<const 
   }
 }
 
-void addMapFlags(CLI::App& verb, MapFlags& flags) {
+void addMapFlags(CLI::App& verb, MapFlags& flags, const std::string& howMany) {
   const OptionGroup group(verb, "Map");
   std::string maps;
   std::vector<std::string> names;
@@ -41,7 +41,7 @@ void addMapFlags(CLI::App& verb, MapFlags& flags) {
     names.emplace_back(map->name());
   }
   offersSomeOf(verb.add_option("--maps", flags.maps,
-                               "comma-separated: " + maps +
+                               howMany + ": " + maps +
                                    "; default: by the light, cube for a point light, spot and directional for theirs"),
                names);
   CLI::Option* side = verb.add_option("--map-size", flags.mapSize, "side of each of the map's square images, texels")

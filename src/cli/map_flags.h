@@ -22,7 +22,8 @@ struct MapFlags {
   MapOptions options;
 };
 // --maps, --map-size, --map-texels, --cull, and a flag for each option of each map.
-void addMapFlags(CLI::App& verb, MapFlags& flags);
+// `howMany`: how many of them the verb takes, "one of".
+void addMapFlags(CLI::App& verb, MapFlags& flags, const std::string& howMany);
 void addCullFlag(CLI::App& verb, MapFlags& flags);
 void addMapOptionFlags(CLI::App& verb, MapFlags& flags, const std::vector<const MapOption*>& options);
 

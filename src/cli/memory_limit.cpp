@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/interrupt.h"
+#include "base/sanitizers.h"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -57,7 +58,7 @@ void tellOutOfMemory() {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), static_cast<size_t>(length));
 }
 
-#if !defined(GNOMON_SANITIZED)  // whose own beginning comes first
+#if !GNOMON_HAS_SANITIZERS  // whose own beginning comes first
 // Before the libraries' own beginnings: some make threads there, and no exception of theirs can be caught.
 void beginWithinMemoryLimit(int, char**, char**) {
   if (!isMemoryLimited()) return;

@@ -67,10 +67,11 @@ void tellUnusedFlags(const CLI::App& verb, const CompareOptions& options) {
 
 }  // namespace
 
-void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultBiases) {
+void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultBiases, const std::string& mapsTaken,
+                    const std::string& biasesTaken) {
   flags.verb = &verb;
-  addMapFlags(verb, flags.map);
-  addBiasFlags(verb, flags.bias, defaultBiases);
+  addMapFlags(verb, flags.map, mapsTaken);
+  addBiasFlags(verb, flags.bias, defaultBiases, biasesTaken);
 }
 
 CompareOptions compareOptions(const MethodFlags& flags) {

@@ -11,7 +11,9 @@ struct MethodFlags {
   BiasFlags bias;
   const CLI::App* verb = nullptr;  // which knows what was given
 };
-void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultBiases);
+// `mapsTaken`, `biasesTaken`: how many the verb takes of the map's names, and of the biases' and filters': "one of".
+void addMethodFlags(CLI::App& verb, MethodFlags& flags, const char* defaultBiases, const std::string& mapsTaken,
+                    const std::string& biasesTaken);
 // Throws UsageError; says on the terminal what is left out because it means nothing on a map. Where no map is named it
 // stands for the one of chooseUsualMap, and is checked as if that were a cube.
 CompareOptions compareOptions(const MethodFlags& flags);

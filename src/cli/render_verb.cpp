@@ -73,7 +73,7 @@ int runRender(const RenderFlags& flags) {
 Run addRender(CLI::App* verb) {
   auto flags = std::make_shared<RenderFlags>();
   addSceneFlags(*verb, flags->scene);
-  addMethodFlags(*verb, flags->method, kDefaultBias);
+  addMethodFlags(*verb, flags->method, kDefaultBias, "one of", "one of");
   addExposureFlag(*verb, flags->method.map.exposure);
   flags->biases = verb->get_option("--biases");
   verb->get_option("--exposure")->group("View and device");

@@ -18,7 +18,7 @@ Run addView(CLI::App* verb) {
   flags->scene.setup.scene = "atrium";
   addSceneFlags(*verb, flags->scene);
   verb->get_option("SCENE")->required(false)->default_str("atrium");
-  addMethodFlags(*verb, flags->method, kDefaultBias);
+  addMethodFlags(*verb, flags->method, kDefaultBias, "one, or A,B to compare", "one, or A,B to compare");
   addExposureFlag(*verb, flags->method.map.exposure);
   const CLI::Option* biases = verb->get_option("--biases");
   verb->get_option("--exposure")->group("View and device");

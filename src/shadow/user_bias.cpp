@@ -18,8 +18,6 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::string_view kUserShader = "shared/bias/user.glsl";
-
 std::string trimmed(const std::string& text) {
   const size_t first = text.find_first_not_of(" \t\r");
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
@@ -181,14 +179,14 @@ std::string knobConstant(const std::string& knob) {
 gpu::ShaderSource shaderWith(const char* path, const UserBias* bias) {
   if (bias == nullptr) return {path, {}};
   return {path,
-          {{std::string(kUserShader), withoutLineDirectives(bias->source)},
-           {"shared/bias/user_knobs.glsl", bias->knobsGlsl}}};
+          {{std::string(kUserBiasFile), withoutLineDirectives(bias->source)},
+           {std::string(kUserKnobsFile), bias->knobsGlsl}}};
 }
 
 // The compiler knows the file by the name it takes the place of.
 std::string inUsersWords(std::string message, const UserBias& bias) {
-  for (size_t at = 0; (at = message.find(kUserShader, at)) != std::string::npos; at += bias.path.size())
-    message.replace(at, kUserShader.size(), bias.path);
+  for (size_t at = 0; (at = message.find(kUserBiasFile, at)) != std::string::npos; at += bias.path.size())
+    message.replace(at, kUserBiasFile.size(), bias.path);
   return message;
 }
 

@@ -19,8 +19,13 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <string_view>
 
 namespace gnomon {
+
+inline constexpr std::string_view kUserBiasFile = "shared/bias/user.glsl";  // in whose place it is compiled
+inline constexpr std::string_view kUserKnobsFile = "shared/bias/user_knobs.glsl";
 
 struct UserBias {
   uint64_t number = 0;  // from 1 on, another for each that this process reads
@@ -28,7 +33,7 @@ struct UserBias {
   std::string name, sentence, knobSentence;
   std::array<std::string, glsl::kMostKnobs> knobNames;
   std::string source;     // GLSL
-  std::string knobsGlsl;  // in place of shaders/shared/bias/user_knobs.glsl
+  std::string knobsGlsl;  // in place of kUserKnobsFile
   BiasMethod method;      // its strings are those above
 };
 

@@ -187,6 +187,53 @@ void ViewWindow::handleMouse() {
   });
 }
 
+// Kept in its order until frames take it. ImGui's own callbacks, which these replace or come before, know what is held
+// when a frame begins and no more.
+void ViewWindow::listenToInput() {
+  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
+    static_cast<ViewWindow*>(glfwGetWindowUserPointer(window))->input_.emplace_back(static_cast<char32_t>(character));
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
+    auto* self = static_cast<ViewWindow*>(glfwGetWindowUserPointer(window));
+    if (button >= static_cast<int>(self->buttons_.size())) return;
+    double x = 0.0, y = 0.0;
+    glfwGetCursorPos(window, &x, &y);
+    self->input_.emplace_back(ButtonTurn{.button = button,
+                                         .isDown = action == GLFW_PRESS,
+                                         .at = {x, y},
+                                         .ctrl = (mods & GLFW_MOD_CONTROL) != 0,
+                                         .shift = (mods & GLFW_MOD_SHIFT) != 0});
+  });
+}
+
+// A mouse button alone, or a key with the characters behind it: what follows waits for the next frame.
+KeyTap ViewWindow::takeInput() {
+  ImGuiIO& io = ImGui::GetIO();
+  if (!input_.empty()) framesPending_ = std::max(framesPending_, 2);  // what it does, and that it ended
+  KeyTap tap;
+  const auto* turn = input_.empty() ? nullptr : std::get_if<ButtonTurn>(&input_.front());
+  const auto* key = input_.empty() ? nullptr : std::get_if<KeyTap>(&input_.front());
+  if (turn != nullptr) {
+    buttons_[static_cast<size_t>(turn->button)] = turn->isDown;
+    io.MousePos = ImVec2(turn->at.x, turn->at.y);
+    tap = {.ctrl = turn->ctrl, .shift = turn->shift};
+    input_.pop_front();
+  } else if (key != nullptr && key->key == lastTapped_) {
+    io.KeysDown[lastTapped_] = false;  // let go between two taps
+  } else {
+    if (key != nullptr) {
+      tap = *key;
+      io.KeysDown[tap.key] = true;
+      input_.pop_front();
+    }
+    for (; !input_.empty() && std::holds_alternative<char32_t>(input_.front()); input_.pop_front())
+      io.AddInputCharacter(std::get<char32_t>(input_.front()));
+  }
+  std::ranges::copy(buttons_, io.MouseDown);
+  lastTapped_ = tap.key;
+  return tap;
+}
+
 // What was pressed before comes before: of a tap, and not of what is held by now.
 void ViewWindow::handleKeys(const KeyTap& tap) {
   ImGuiIO& io = ImGui::GetIO();

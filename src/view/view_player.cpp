@@ -124,13 +124,13 @@ void ScriptPlayer::pressKey(const std::string& text, int frames) {
     name = name.substr(std::string(prefix).size());
   }
   if (name == "?") {
-    ImGui::GetIO().AddInputCharacter('?');
+    window_.input_.push_back(U'?');
     return wait([frames]() mutable { return frames-- > 0; });
   }
   const int key = keyNamed(name);
   if (key < 0) throw WorldError(fmt::format("{}: no such key; write a letter, a digit, tab, f1, left, ...", text));
   input.keys = {key};
-  window_.taps_.push_back({key, input.ctrl, input.shift});
+  window_.input_.push_back(KeyTap{key, input.ctrl, input.shift});
   wait([this, frames]() mutable {
     if (frames-- > 0) return true;
     window_.scripted_.keys.clear();
@@ -299,7 +299,7 @@ void ScriptPlayer::random(int frames, unsigned seed) {
                                       "d",   "e", "1", "2", "3", "4", "5", "escape", "home", "f1"};
         input.keys = {keyNamed(kKeys[static_cast<size_t>(below(static_cast<int>(kKeys.size())))])};
         input.shift = below(4) == 0;
-        w.taps_.push_back({input.keys.front(), false, input.shift});
+        w.input_.push_back(KeyTap{input.keys.front(), false, input.shift});
         break;
       }
       case 3: {

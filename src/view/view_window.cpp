@@ -117,7 +117,7 @@ void ViewWindow::createWindow() {
     else
       self->pressedWithModifier_.erase(key);
     if (isOfOthers) return;
-    self->taps_.push_back({key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
+    self->input_.emplace_back(KeyTap{key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
   });
   float scaleX = 1.0f, scaleY = 1.0f;
   glfwGetWindowContentScale(window_, &scaleX, &scaleY);
@@ -134,6 +134,7 @@ void ViewWindow::createWindow() {
   ImGui::GetStyle().ScaleAllSizes(scale_);
   ImGui::GetStyle().WindowRounding = 0.0f;
   ImGui_ImplGlfw_InitForVulkan(window_, true);
+  listenToInput();
   io.KeyMap[ImGuiKey_Tab] = -1;  // the split's, and not the next text's
   try {
     presenter_ = std::make_unique<Presenter>(window_, options_.device);
@@ -307,25 +308,17 @@ void ViewWindow::frame() {
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGuiIO& io = ImGui::GetIO();
+  const ImGuiIO held = io;
+  const KeyTap tap = takeInput();
   if (scripted_.drives) {
     io.MousePos = ImVec2(scripted_.x, scripted_.y);
     for (int i = 0; i < 3; ++i) io.MouseDown[i] = scripted_.buttons[i];
     io.MouseWheel += scripted_.wheel;
     scripted_.wheel = 0.0f;
   }
-  // One a frame, in their order; ImGui, which sees what is held, sees it for this frame.
-  KeyTap tap;
-  if (!taps_.empty()) {
-    tap = taps_.front();
-    taps_.pop_front();
-  }
-  std::vector<int> pressed = scripted_.keys;
-  if (tap.key != 0) pressed.push_back(tap.key);
-  std::erase_if(pressed, [&](int key) { return io.KeysDown[key]; });  // held: it is there already
-  for (const int key : pressed) io.KeysDown[key] = true;
-  const bool heldCtrl = io.KeyCtrl, heldShift = io.KeyShift;
-  io.KeyCtrl = heldCtrl || scripted_.ctrl || tap.ctrl;
-  io.KeyShift = heldShift || scripted_.shift || tap.shift;
+  for (const int key : scripted_.keys) io.KeysDown[key] = true;
+  io.KeyCtrl = held.KeyCtrl || scripted_.ctrl || tap.ctrl;
+  io.KeyShift = held.KeyShift || scripted_.shift || tap.shift;
   ImGui::NewFrame();
   layOut();
   drawPanels();
@@ -334,9 +327,9 @@ void ViewWindow::frame() {
   handleMouse();
   ask();
   ImGui::Render();
-  for (const int key : pressed) io.KeysDown[key] = false;
-  io.KeyCtrl = heldCtrl;
-  io.KeyShift = heldShift;
+  std::ranges::copy(held.KeysDown, io.KeysDown);
+  io.KeyCtrl = held.KeyCtrl;
+  io.KeyShift = held.KeyShift;
   present();
   ++framesDrawn_;
   keepFrame_ = false;
@@ -366,7 +359,7 @@ bool ViewWindow::wantsFrame() const {
   const bool restIsDue = !restAsked_ && isAtRest();
   const bool plays = script_ != nullptr && !script_->isDone() && !scriptWaits_;
   const bool counts = options_.frames && framesDrawn_ < *options_.frames && (!script_ || script_->isDone());
-  return framesPending_ > 0 || !taps_.empty() || changed_ || drag_ != Drag::None || restIsDue || plays || counts ||
+  return framesPending_ > 0 || !input_.empty() || changed_ || drag_ != Drag::None || restIsDue || plays || counts ||
          worker_->newest() != picture_;
 }
 

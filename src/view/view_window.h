@@ -17,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 struct GLFWwindow;
@@ -58,6 +59,16 @@ struct KeyTap {
   int key = 0;  // GLFW's; 0: none
   bool ctrl = false, shift = false;
 };
+
+// A mouse button that went down or up, and where.
+struct ButtonTurn {
+  int button = 0;  // GLFW's
+  bool isDown = false;
+  glm::vec2 at{};
+  bool ctrl = false, shift = false;
+};
+
+using InputEvent = std::variant<KeyTap, ButtonTurn, char32_t>;
 
 // Input that a script gives in place of a person.
 struct ScriptedInput {
@@ -166,6 +177,8 @@ class ViewWindow {
 
   // view_input.cpp
   void handleMouse();
+  void listenToInput();
+  KeyTap takeInput();
   void handleKeys(const KeyTap& tap);
   void navigate(float dx, float dy, int how);
   glm::dvec3 pivot();
@@ -217,7 +230,9 @@ class ViewWindow {
   std::string pictureProblem_;
 
   std::vector<std::string> dropped_;
-  std::deque<KeyTap> taps_;            // that no frame has seen yet
+  std::deque<InputEvent> input_;       // that no frame has seen yet, in its order
+  std::array<bool, 3> buttons_{};      // of the mouse, as the frames have seen them
+  int lastTapped_ = 0;                 // the key of the last frame
   std::set<int> pressedWithModifier_;  // when last pressed, with Ctrl or Alt: held on without it, they do not fly
   ScriptedInput scripted_;
   std::vector<StageHistory> times_;

@@ -1,6 +1,6 @@
 // Memory that is freed in the middle of the heap goes back.
 #include "base/process_memory.h"
-#include "base/sandbox.h"
+#include "base/sanitizers.h"
 
 #include <memory>
 #include <vector>

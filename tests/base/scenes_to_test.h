@@ -2,7 +2,7 @@
 // Tests of whole pictures compare numbers in several scenes. Sanitizers look for mistakes of code, for which one scene
 // does, and take several times as long: they see the first.
 
-#include "base/sandbox.h"
+#include "base/sanitizers.h"
 
 #include <initializer_list>
 #include <vector>

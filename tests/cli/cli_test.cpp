@@ -226,6 +226,8 @@ TEST_F(CliTest, AFilesKnobsAreSetByName) {
   expectMistake("compare corner --bias-file @/plain.glsl --bias-file-knob 4", 2, "plain.glsl has no parameter");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob rich=4", 2,
                 "--bias-file-knob rich=4: no such parameter; choose from reach, offset");
+  expectMistake("compare corner --bias-file @/one.glsl --bias-file @/two.glsl --bias-file-knob rich=4", 2,
+                "no such parameter; choose from reach, offset");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=much", 2, "'much' is not a number");
   expectMistake("compare corner --bias-file @/two.glsl --bias-file-knob reach=9", 2,
                 "--bias-file-knob reach 9 is outside 0..8 texels");

@@ -111,6 +111,8 @@ TEST_F(UsageTest, HelpIsGroupedAndEndsWithTheExitCodes) {
   }
   for (const char* verb : {"render", "fog", "vsv", "bench", "info", "scene", "report", "reproduce"})
     EXPECT_TRUE(has(run(fmt::format("{} --help", verb)).out, "130 interrupted")) << verb;
+  EXPECT_TRUE(has(help, "comma-separated, or all:"));
+  EXPECT_FALSE(has(run("render --help").out, "comma-separated, or all:"));  // of which it draws one
 }
 
 TEST_F(UsageTest, TheVersionSaysWhatItWasBuiltFrom) {

@@ -1,5 +1,6 @@
 // The biases that know surfaces, end to end: on every scene and map, beside the exact shadow and beside the same walks
 // on the CPU.
+#include "base/sanitizers.h"
 #include "judge/light_on_map.h"
 #include "lit_map.h"
 #include "omni/cube_map.h"

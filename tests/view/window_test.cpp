@@ -244,6 +244,15 @@ TEST_F(WindowTest, KeysOfALongFrameComeInTheirOrder) {
   EXPECT_EQ(session["loupe"], "on");
 }
 
+// So does a mouse: a whole drag is one, from where it went down to where it came up.
+TEST_F(WindowTest, ADragOfALongFrameTurnsTheCamera) {
+  expectFine(viewByHand("lshape --size 128 --map-size 64 --window 1000x700 --session s.json",
+                        "pid=$($x getwindowpid $id); kill -STOP $pid; $x mousedown 1 mousemove 740 320 mouseup 1; "
+                        "kill -CONT $pid; sleep 1; $x key --delay 0 ctrl+s"));
+  const auto session = nlohmann::json::parse(readFile(folder() / "s.json"));
+  EXPECT_TRUE(session.value("camera", "").starts_with("eye:")) << session;
+}
+
 // Held on when Ctrl is let go, S is no flight backwards.
 TEST_F(WindowTest, AKeyThatWasPressedWithCtrlDoesNotFly) {
   expectFine(viewByHand("lshape --size 128 --map-size 64 --window 1000x700 --session s.json",

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/suggest.h"
+#include "lab/export/exported_tables.h"
 #include "lab/export/refuse_user_code.h"
 #include "lab/export/simplify.h"
 #include "lab/export/visibility_source.h"
@@ -27,7 +28,7 @@ using code::Decl;
 using code::Expr;
 using code::Language;
 using code::Program;
-using code::Stmt;
+using code::Table;
 
 constexpr float kUnknownDiagonal = 10.0f;  // metres, of a scene that nobody named
 
@@ -49,141 +50,6 @@ std::string title(Language language) {
       return "Metal shading language 2";
   }
   return {};
-}
-
-// What fetches need of each language.
-struct Table {
-  const char* function;  // of unbound_visibility.glsl or lookup_tables.glsl
-  const char* name;      // "gnomonDepth"
-  const char* member;    // of Metal's GnomonTextures
-  bool isMap;            // slices of the map; else rows of a table
-  bool isDepthFormat;
-  const char* component;  // "float", "uint"
-  int components;
-  const char* holds;
-};
-
-const std::vector<Table>& tables() {
-  static const std::vector<Table> all = {
-      {"fetchDepth", "gnomonDepth", "depth", true, true, "float", 1,
-       "the nearest depth, 0 at the near end, 1 at the far end and where nothing was drawn"},
-      {"fetchSecondDepth", "gnomonSecondDepth", "secondDepth", true, false, "float", 1,
-       "the nearest depth behind that one; 1 where there is none"},
-      {"fetchBackDepth", "gnomonBackDepth", "backDepth", true, true, "float", 1,
-       "the nearest depth of back faces: closed meshes drawn with front faces culled, all others as they are"},
-      {"fetchId", "gnomonIds", "ids", true, false, "uint", 1,
-       "the number of the triangle that the nearest depth is of, 1 + its place among all; 0 where nothing was drawn"},
-      {"fetchSecondId", "gnomonSecondIds", "secondIds", true, false, "uint", 1, "the same of the second depth"},
-      {"meshRow", "gnomonMeshRows", "meshRows", false, false, "uint", 4,
-       "three rows a triangle: the bits of a corner's x, y, z, and the link across the edge opposite to it (the "
-       "picture at GnomonMeshRow)"},
-      {"worldFromMesh", "gnomonInstances", "instances", false, false, "float", 4,
-       "four rows an instance: the columns of worldFromMesh"},
-      {"idChunkAt", "gnomonIdChunks", "idChunks", false, false, "uint", 2,
-       "one row a chunk of ids: its instance, and its first triangle among all"},
-      {"triangleFacts", "gnomonTriangleTable", "triangleTable", false, false, "uint", 2,
-       "one row a triangle: its instance, and its connected surface"},
-  };
-  return all;
-}
-
-bool isC(Language language) {
-  return language == Language::Hlsl || language == Language::Msl;
-}
-
-std::string vectorType(Language language, const Table& table) {
-  if (language == Language::Hlsl || language == Language::Msl)
-    return table.components == 1 ? table.component : fmt::format("{}{}", table.component, table.components);
-  const char* letter = std::string(table.component) == "uint" ? "u" : "";
-  return fmt::format("{}vec4", letter);
-}
-
-// The declaration of a table's texture or buffer, and how one is read at `at`.
-std::string declaration(Language language, const Table& table, int binding) {
-  const std::string u = std::string(table.component) == "uint" ? "u" : "";
-  const std::string type = vectorType(language, table);
-  switch (language) {
-    case Language::Glsl:
-      return fmt::format("layout(binding = {}) uniform {}{} {};\n", binding, u,
-                         table.isMap ? "sampler2DArray" : "samplerBuffer", table.name);
-    case Language::GlslEs:
-      return fmt::format("uniform highp {}{} {};\n", u, table.isMap ? "sampler2DArray" : "sampler2D", table.name);
-    case Language::Hlsl:
-      return fmt::format("{}<{}> {} : register(t{});\n", table.isMap ? "Texture2DArray" : "Buffer", type, table.name,
-                         binding);
-    case Language::Msl:
-      if (!table.isMap) return fmt::format("  const device {}* {};\n", type, table.member);
-      return fmt::format("  {}_array<{}> {};\n", table.isDepthFormat ? "depth2d" : "texture2d", table.component,
-                         table.member);
-  }
-  return {};
-}
-
-std::string readRow(Language language, const Table& table, const std::string& row) {
-  switch (language) {
-    case Language::Glsl:
-      return fmt::format("texelFetch({}, int({}))", table.name, row);
-    case Language::GlslEs:
-      return fmt::format("texelFetch({}, ivec2(int({}) & 2047, int({}) >> 11), 0)", table.name, row, row);
-    case Language::Hlsl:
-      return fmt::format("{}[{}]", table.name, row);
-    case Language::Msl:
-      return fmt::format("textures.{}[{}]", table.member, row);
-  }
-  return {};
-}
-
-// A function that the shaders only declare.
-std::string definition(Language language, const Table& table, const code::PrintOptions& names, const Decl& decl,
-                       const Program& program) {
-  const auto type = [&](const char* glsl) {
-    return names.names.contains(glsl) ? names.names.at(glsl) : code::nameIn(language, glsl);
-  };
-  const std::string name = names.names.at(decl.name);
-  const std::string end = language == Language::Msl ? ", GnomonTextures textures)" : ")";
-  const std::string begin = language == Language::Msl ? "inline " : "";
-  if (table.isMap) {
-    std::string fetch;
-    switch (language) {
-      case Language::Glsl:
-      case Language::GlslEs:
-        fetch = fmt::format("texelFetch({}, ivec3(texel, slice), 0).x", table.name);
-        break;
-      case Language::Hlsl:
-        fetch = fmt::format("{}.Load(int4(texel, slice, 0))", table.name);
-        break;
-      case Language::Msl:
-        fetch =
-            fmt::format("textures.{}.read(uint2(texel), uint(slice)){}", table.member, table.isDepthFormat ? "" : ".x");
-        break;
-    }
-    // As the others wrap a long head.
-    return code::wrappedCode(
-               fmt::format("{}{} {}(int slice, {} texel{} {{", begin, table.component, name, type("ivec2"), end), 0) +
-           "\n  return " + fetch + ";\n}\n";
-  }
-  const std::string function = decl.name;
-  if (function == "worldFromMesh") {
-    std::string columns;
-    for (int i = 0; i < 4; ++i)
-      columns += (i > 0 ? ",\n              " : "") + readRow(language, table, fmt::format("(4u * instance + {}u)", i));
-    return fmt::format("{}{} {}(uint instance{} {{\n  return {}({});\n}}\n", begin, type("mat4"), name, end,
-                       type("mat4"), columns);
-  }
-  // A structure of which only what is used is left.
-  const std::string result = type(decl.type.c_str());
-  std::string text = fmt::format("{}{} {}(uint place{} {{\n  {} row = {};\n  {} found;\n", begin, result, name, end,
-                                 type(table.components == 4 || !isC(language) ? "uvec4" : "uvec2"),
-                                 readRow(language, table, "place"), result);
-  const std::string bits = language == Language::Hlsl  ? "asfloat(row.xyz)"
-                           : language == Language::Msl ? "as_type<float3>(row.xyz)"
-                                                       : "uintBitsToFloat(row.xyz)";
-  const std::map<std::string, std::string> parts = {
-      {"corner", bits}, {"link", "row.w"}, {"instance", "row.x"}, {"firstTriangle", "row.y"}, {"sheet", "row.y"}};
-  for (const Stmt& member : program.find(decl.type)->members)
-    for (const code::Declarator& part : member.names)
-      text += fmt::format("  found.{} = {};\n", part.name, parts.at(part.name));
-  return text + "  return found;\n}\n";
 }
 
 // `params.knobs[kOffset]` becomes kOffset, and the number of its place the knob's value.
@@ -489,7 +355,7 @@ ExportedScene factsOf(const ExportChoice& choice) {
 std::set<std::string> takenNames() {
   std::set<std::string> names = {"gnomonVisibility",  "gnomonFindLsb",     "GnomonTextures",   "kGnomonMapSide",
                                  "kGnomonSliceCount", "kGnomonSceneScale", "kGnomonEndMargin", "kGnomonIdShift"};
-  for (const Table& table : tables()) names.insert(table.name);
+  for (const Table& table : code::tables()) names.insert(table.name);
   return names;
 }
 
@@ -534,11 +400,11 @@ ExportedShader printed(const ExportChoice& choice, const ExportedScene& facts, P
                             "shadow/surface_visibility.glsl", "shadow/fetch_tap.glsl", "shadow/map_constants.glsl"});
   ExportedShader exported;
   std::vector<const Table*> used;
-  for (const Table& table : tables()) {
+  for (const Table& table : code::tables()) {
     const Decl* decl = program.find(table.function);
     if (decl == nullptr) continue;
     exported.resources.push_back({.name = table.name, .binding = static_cast<int>(used.size()), .holds = table.holds});
-    print.definitions[decl->name] = definition(choice.language, table, print, *decl, program);
+    print.definitions[decl->name] = code::definition(choice.language, table, print, *decl, program);
     used.push_back(&table);
   }
   if (const Decl* hole = program.find("isMeshHole")) {
@@ -561,7 +427,8 @@ ExportedShader printed(const ExportChoice& choice, const ExportedScene& facts, P
   } else if (choice.language == Language::Msl) {
     exported.text += "#include <metal_stdlib>\nusing namespace metal;\n\nstruct GnomonTextures {\n";
   }
-  for (size_t i = 0; i < used.size(); ++i) exported.text += declaration(choice.language, *used[i], static_cast<int>(i));
+  for (size_t i = 0; i < used.size(); ++i)
+    exported.text += code::declaration(choice.language, *used[i], static_cast<int>(i));
   if (choice.language == Language::Msl) exported.text += "};\n";
   std::string code = code::printProgram(program, print);
   if (choice.language == Language::GlslEs && code.find("gnomonFindLsb(") != std::string::npos)

@@ -1,6 +1,7 @@
 #include "lab/export/preprocess_glsl.h"
 
 #include "base/error.h"
+#include "shadow/user_bias.h"
 
 #include <algorithm>
 #include <iterator>
@@ -276,7 +277,7 @@ class Preprocessor {
   bool isDefined(const std::string& name) const {
     if (name == "__VERSION__" || name == "GL_SPIRV" || name == "__cplusplus") return false;
     const bool defined = macros_.contains(name);
-    if (!defined && file_ == kUserFile && name.starts_with("GL_"))
+    if (!defined && file_ == kUserBiasFile && name.starts_with("GL_"))
       fail(line_, fmt::format("whether {} is defined is the compiler's to say, and not known here", name),
            "write the file without asking");
     return defined;

@@ -27,8 +27,6 @@ struct Tokens {
   std::vector<std::pair<std::string, std::vector<std::string>>> heads;  // Program::heads
 };
 
-inline constexpr const char* kUserFile = "shared/bias/user.glsl";  // what a user's bias stands in place of
-
 bool isWordLetter(char c);
 // Of the name or number that the text begins with; 0 where it begins with neither.
 size_t lengthOfWord(std::string_view text);

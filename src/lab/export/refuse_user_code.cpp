@@ -18,8 +18,6 @@ namespace gnomon::code {
 
 namespace {
 
-constexpr const char* kKnobsFile = "shared/bias/user_knobs.glsl";
-
 // A name, a number or a character of anything else but blanks.
 struct Word {
   std::string text;
@@ -89,10 +87,10 @@ class Refusal {
     std::map<std::string, std::string> printed;  // and what is printed so
     for (const std::string& name : taken) printed[name] = "a name of export's own";
     for (const Decl& decl : program_.decls)
-      if (decl.file != kUserFile) printed[prefixedName(decl)] = fmt::format("Gnomon's {}", decl.name);
+      if (decl.file != kUserBiasFile) printed[prefixedName(decl)] = fmt::format("Gnomon's {}", decl.name);
     for (size_t i = 0; i < program_.decls.size(); ++i) {
       const Decl& decl = program_.decls[i];
-      if (decl.file != kUserFile) continue;
+      if (decl.file != kUserBiasFile) continue;
       const std::string type = decl.kind == Decl::Kind::Struct ? "struct" : decl.type;
       if (decl.kind != Decl::Kind::Constant) {
         refuseSecond(i);
@@ -126,7 +124,7 @@ class Refusal {
     });
     // Other than as the place of a knob, its constant is a number that is gone.
     for (const Decl& decl : program_.decls) {
-      if (decl.file != kKnobsFile || decl.kind != Decl::Kind::Constant) continue;
+      if (decl.file != kUserKnobsFile || decl.kind != Decl::Kind::Constant) continue;
       size_t all = 0, places = 0;
       eachUserExpr([&](const Expr& e) {
         all += e.isAtom(decl.name) ? 1 : 0;
@@ -200,7 +198,7 @@ class Refusal {
     }
     for (const Decl& decl : program_.decls) {
       if (decl.kind == Decl::Kind::Constant) folded_.insert(decl.name);
-      if (decl.file == kUserFile) continue;
+      if (decl.file == kUserBiasFile) continue;
       for (const Param& param : decl.params) own_.emplace(param.type, param.name);
     }
   }
@@ -209,8 +207,8 @@ class Refusal {
     const Decl& decl = program_.decls[i];
     for (size_t k = 0; k < program_.decls.size(); ++k)
       if (decl.hasBody && k != i && program_.decls[k].name == decl.name &&
-          (k < i || program_.decls[k].file != kUserFile))
-        failAt(lineOfDeclared(words_, "", decl.name, k < i && program_.decls[k].file == kUserFile ? 1 : 0),
+          (k < i || program_.decls[k].file != kUserBiasFile))
+        failAt(lineOfDeclared(words_, "", decl.name, k < i && program_.decls[k].file == kUserBiasFile ? 1 : 0),
                fmt::format("{} is defined twice; exported code has no overloads, rename one", decl.name));
   }
 
@@ -232,14 +230,14 @@ class Refusal {
   template <typename Visit>
   void eachUserExpr(const Visit& visit) const {
     for (Decl decl : program_.decls)
-      if (decl.file == kUserFile) eachExpr(decl, visit);
+      if (decl.file == kUserBiasFile) eachExpr(decl, visit);
   }
 
   // Of variables, parameters, members, and what functions return.
   template <typename Visit>
   void eachUserType(const Visit& visit) const {
     for (Decl decl : program_.decls) {
-      if (decl.file != kUserFile) continue;
+      if (decl.file != kUserBiasFile) continue;
       if (decl.kind != Decl::Kind::Struct) visit(decl.type);
       for (const Param& param : decl.params) visit(param.type);
       eachStmt(decl.members, [&](const Stmt& stmt) { visit(stmt.type); });
@@ -251,7 +249,7 @@ class Refusal {
 
   bool isKnobPlace(const Expr& e) const {
     const Decl* decl = e.kind == Expr::Kind::Atom ? program_.find(e.text) : nullptr;
-    return decl != nullptr && decl->file == kKnobsFile;
+    return decl != nullptr && decl->file == kUserKnobsFile;
   }
 
   static bool readsKnobs(Expr e) {
@@ -364,7 +362,7 @@ void refuseUserCode(const Program& program, const UserBias& user, const Known& k
 void refuseLeftParams(const Program& program, const UserBias& user) {
   for (const Decl& decl : program.decls)
     for (const Param& param : decl.params)
-      if (decl.file == kUserFile && param.type == "BiasParams")
+      if (decl.file == kUserBiasFile && param.type == "BiasParams")
         throw WorldError(
             fmt::format("{}:{}: {} uses its BiasParams for more than to read knobs; read "
                         "{}.knobs[...] there, or pass on what it needs of them",
