@@ -6,6 +6,8 @@
 #include "gpu/embedded_shaders.h"
 #include "gpu/spirv_cache.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -169,7 +171,17 @@ std::string errorLines(const std::string& path, const char* log) {
   return fmt::format("{}", fmt::join(messages, "; "));
 }
 
+// Held by who compiles and by who forks: glslang has locks of its own, and one that another thread held at a fork would
+// never be let go in the child.
+std::mutex& compiling() {
+  static std::mutex mutex;
+  return mutex;
+}
+[[maybe_unused]] const int kForksWait =
+    ::pthread_atfork([] { compiling().lock(); }, [] { compiling().unlock(); }, [] { compiling().unlock(); });
+
 std::vector<uint32_t> compileWithGlslang(const std::string& path, EShLanguage stage, const std::string& text) {
+  const std::scoped_lock compiles(compiling());
   static std::once_flag initialized;
   std::call_once(initialized, [] { glslang::InitializeProcess(); });
 

@@ -55,5 +55,7 @@ void placeCamera(ViewState& state, const TracedScene& traced, const glm::dvec3& 
 // kept. Throws WorldError that names `path` where the text is none, UsageError where a value is refused.
 std::string sessionJson(const ViewState& state);
 ViewState readSession(const std::string& path, const std::string& text, const ViewState& others);
+// Of sessionJson() a while ago: the parameters that a bias's file has lost since are left out. `what`: "undo".
+ViewState readPastState(const std::string& what, const std::string& text, const ViewState& others);
 
 }  // namespace gnomon

@@ -41,7 +41,7 @@ void ViewWindow::undo() {
   rememberState();
   if (past_.empty()) return say("nothing to undo", false);
   guarded([&] {
-    state_ = readSession("undo", past_.back(), state_);
+    state_ = readPastState("undo", past_.back(), state_);
     future_.push_back(std::exchange(current_, past_.back()));
     past_.pop_back();
     noteChange(false);
@@ -52,7 +52,7 @@ void ViewWindow::redo() {
   rememberState();
   if (future_.empty()) return say("nothing to redo", false);
   guarded([&] {
-    state_ = readSession("redo", future_.back(), state_);
+    state_ = readPastState("redo", future_.back(), state_);
     past_.push_back(std::exchange(current_, future_.back()));
     future_.pop_back();
     noteChange(false);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -187,58 +188,66 @@ void ViewWindow::handleMouse() {
   });
 }
 
-// Kept in its order until frames take it. ImGui's own callbacks, which these replace or come before, know what is held
-// when a frame begins and no more.
+// Kept in its order until frames take it. ImGui's own callbacks stay for the wheel, and for what is held when a frame
+// begins.
 void ViewWindow::listenToInput() {
   glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
     static_cast<ViewWindow*>(glfwGetWindowUserPointer(window))->input_.emplace_back(static_cast<char32_t>(character));
   });
+  // As events have it: glfwGetCursorPos() knows where it is by now.
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    static_cast<ViewWindow*>(glfwGetWindowUserPointer(window))->pointer_ = {x, y};
+  });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
     auto* self = static_cast<ViewWindow*>(glfwGetWindowUserPointer(window));
     if (button >= static_cast<int>(self->buttons_.size())) return;
-    double x = 0.0, y = 0.0;
-    glfwGetCursorPos(window, &x, &y);
     self->input_.emplace_back(ButtonTurn{.button = button,
                                          .isDown = action == GLFW_PRESS,
-                                         .at = {x, y},
+                                         .at = self->pointer_,
                                          .ctrl = (mods & GLFW_MOD_CONTROL) != 0,
                                          .shift = (mods & GLFW_MOD_SHIFT) != 0});
   });
 }
 
-// A mouse button alone, or a key with the characters behind it: what follows waits for the next frame.
-KeyTap ViewWindow::takeInput() {
+// A mouse button alone, or a key with the characters behind it: what follows waits for the next frame. Null where
+// nothing waited: then what is held counts.
+std::optional<KeyTap> ViewWindow::takeInput() {
   ImGuiIO& io = ImGui::GetIO();
-  if (!input_.empty()) framesPending_ = std::max(framesPending_, 2);  // what it does, and that it ended
-  KeyTap tap;
-  const auto* turn = input_.empty() ? nullptr : std::get_if<ButtonTurn>(&input_.front());
-  const auto* key = input_.empty() ? nullptr : std::get_if<KeyTap>(&input_.front());
-  if (turn != nullptr) {
-    buttons_[static_cast<size_t>(turn->button)] = turn->isDown;
-    io.MousePos = ImVec2(turn->at.x, turn->at.y);
-    tap = {.ctrl = turn->ctrl, .shift = turn->shift};
-    input_.pop_front();
-  } else if (key != nullptr && key->key == lastTapped_) {
-    io.KeysDown[lastTapped_] = false;  // let go between two taps
-  } else {
-    if (key != nullptr) {
-      tap = *key;
-      io.KeysDown[tap.key] = true;
+  const int before = std::exchange(lastTapped_, 0);
+  std::optional<KeyTap> taken;
+  if (!input_.empty()) {
+    taken.emplace();
+    framesPending_ = std::max(framesPending_, 2);  // what it does, and that it ended
+    const auto* turn = std::get_if<ButtonTurn>(&input_.front());
+    const auto* key = std::get_if<KeyTap>(&input_.front());
+    const glm::vec2 at = turn != nullptr ? turn->at : mouse_;
+    io.MousePos = ImVec2(at.x, at.y);
+    if (turn != nullptr && at == mouse_) {  // else there first, so that a drag has its way
+      buttons_[static_cast<size_t>(turn->button)] = turn->isDown;
+      *taken = {.ctrl = turn->ctrl, .shift = turn->shift};
       input_.pop_front();
+    } else if (turn == nullptr && (key == nullptr || key->key != before)) {  // else let go between two taps
+      if (key != nullptr) {
+        *taken = *key;
+        input_.pop_front();
+      }
+      for (; !input_.empty() && std::holds_alternative<char32_t>(input_.front()); input_.pop_front())
+        io.AddInputCharacter(std::get<char32_t>(input_.front()));
     }
-    for (; !input_.empty() && std::holds_alternative<char32_t>(input_.front()); input_.pop_front())
-      io.AddInputCharacter(std::get<char32_t>(input_.front()));
+    for (const InputEvent& event : input_)
+      if (const auto* later = std::get_if<KeyTap>(&event)) io.KeysDown[later->key] = false;
+    if (taken->key != 0) io.KeysDown[taken->key] = true;
+    lastTapped_ = taken->key;
   }
+  mouse_ = {io.MousePos.x, io.MousePos.y};
   std::ranges::copy(buttons_, io.MouseDown);
-  lastTapped_ = tap.key;
-  return tap;
+  return taken;
 }
 
 // What was pressed before comes before: of a tap, and not of what is held by now.
 void ViewWindow::handleKeys(const KeyTap& tap) {
   ImGuiIO& io = ImGui::GetIO();
   const auto pressed = [&](int key) { return tap.key == key; };
-  if (io.WantTextInput) return;
   // Keyboards have the character in different places.
   const bool asksForHelp = pressed(GLFW_KEY_F1) || io.InputQueueCharacters.contains('?');
   if (asksForHelp) showKeys_ = !showKeys_;

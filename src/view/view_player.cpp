@@ -49,14 +49,14 @@ bool ScriptPlayer::isRefined() const {
 }
 
 // A wait ends, at the latest, when nothing has come for so long.
-void ScriptPlayer::checkPatience() {
+void ScriptPlayer::checkPatience(const ScriptLine& line) {
   constexpr std::chrono::seconds kPatience{120};
   const ViewClock::time_point now = ViewClock::now();
   const ViewPicture* const newest = window_.worker_->newest().get();
   if (newest != seen_ || !window_.scriptWaits_) lastSign_ = now;
   seen_ = newest;
-  if (now - lastSign_ > kPatience && at_ > 0 && !window_.options_.script.empty())
-    fail(lines_[at_ - 1], fmt::format("no picture in {} s", kPatience.count()));
+  if (now - lastSign_ > kPatience && !window_.options_.script.empty())
+    fail(line, fmt::format("no picture in {} s", kPatience.count()));
 }
 
 // Pixels of a picture are somewhere only when there is one; a light has a place only in a scene.
@@ -74,7 +74,7 @@ bool ScriptPlayer::step() {
   while (true) {
     if (waiting_) {
       if (waiting_()) {
-        checkPatience();
+        checkPatience(lines_[at_ - 1]);
         return true;
       }
       waiting_ = nullptr;
@@ -86,7 +86,7 @@ bool ScriptPlayer::step() {
     const ScriptLine& line = lines_[at_];
     window_.scriptWaits_ = lacksScene(line);
     if (window_.scriptWaits_) {
-      checkPatience();
+      checkPatience(line);
       return true;
     }
     ++at_;

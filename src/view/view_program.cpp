@@ -35,7 +35,8 @@ int openWindow(const ViewFlags& flags) {
                    .json = flags.json,
                    .frames = flags.frames,
                    .scale = flags.scale};
-  view.namesOthers = flags.biasIsGiven || flags.method.verb->get_option("SCENE")->count() > 0;
+  view.namesOthers =
+      flags.biasIsGiven || !options.userBiases.empty() || flags.method.verb->get_option("SCENE")->count() > 0;
   parseSize(flags.scene.setup.size);
   const PictureSize window = parseSize(flags.window, 0.0, "--window");
   view.width = window.width;

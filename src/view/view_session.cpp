@@ -4,6 +4,7 @@
 #include "base/parse_json.h"
 #include "view/view_controls.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,7 +30,13 @@ std::string sessionJson(const ViewState& state) {
 
 namespace {
 
-ViewState stateOf(const std::string& path, const std::string& text, const ViewState& others) {
+// "a.knob.reach": of a bias's file.
+bool isFileKnob(const std::string& name) {
+  return name.find(".knob.") == 1;
+}
+
+// `isPast`: of this program a while ago.
+ViewState stateOf(const std::string& path, const std::string& text, const ViewState& others, bool isPast) {
   nlohmann::ordered_json json;
   try {
     json = parseJson<nlohmann::ordered_json>(text, {.depth = 4, .members = 1000});
@@ -49,25 +56,38 @@ ViewState stateOf(const std::string& path, const std::string& text, const ViewSt
     if (name == "gnomon_view") continue;
     if (!value.is_string()) throw WorldError(fmt::format("{}: {} is no text", path, name));
     // A map or a bias comes before what only means something with it, as the controls stand in order.
+    if (isPast && isFileKnob(name) && std::ranges::find(controls, name, &Control::name) == controls.end()) continue;
     const Control& control = findControl(controls, name);
     if (control.derived)
       throw WorldError(fmt::format("{}: {} follows from another member, which stands for it", path, name));
-    control.set(state, value.get<std::string>());
+    try {
+      control.set(state, value.get<std::string>());
+    } catch (const UsageError&) {
+      if (!isPast || !isFileKnob(name)) throw;  // out of its bounds by now
+    }
     if (const auto chosen = chosenBiasFiles(state); chosen != std::exchange(files, chosen))
       controls = viewControls(nullptr, state);
   }
   return state;
 }
 
-}  // namespace
-
-ViewState readSession(const std::string& path, const std::string& text, const ViewState& others) {
+ViewState stateNaming(const std::string& path, const std::string& text, const ViewState& others, bool isPast) {
   try {
-    return stateOf(path, text, others);
+    return stateOf(path, text, others, isPast);
   } catch (const std::exception& error) {  // of what a member is set to, for example
     const std::string what = error.what();
     throw WorldError(what.starts_with(path) ? what : path + ": " + what);
   }
+}
+
+}  // namespace
+
+ViewState readSession(const std::string& path, const std::string& text, const ViewState& others) {
+  return stateNaming(path, text, others, false);
+}
+
+ViewState readPastState(const std::string& what, const std::string& text, const ViewState& others) {
+  return stateNaming(what, text, others, true);
 }
 
 }  // namespace gnomon

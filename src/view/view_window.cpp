@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
+#include "base/message.h"
 #include "base/terminal.h"
 #include "lab/core/method.h"
 
@@ -69,7 +70,7 @@ ViewWindow::ViewWindow(const ViewOptions& options) : options_(options), state_(o
     state_ = readSession(options.session, readFile(options.session, 1 << 20), state_);
     if (options.namesOthers)
       std::fprintf(stderr, "gnomon: note: what the session %s sets comes before the command line\n",
-                   options.session.c_str());
+                   printable(options.session).c_str());
   }
   goodState_ = state_;
   // The picture is under way while the window is made.
@@ -308,8 +309,10 @@ void ViewWindow::frame() {
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGuiIO& io = ImGui::GetIO();
-  const ImGuiIO held = io;
-  const KeyTap tap = takeInput();
+  const auto heldKeys = std::to_array(io.KeysDown);
+  const bool heldCtrl = io.KeyCtrl, heldShift = io.KeyShift;
+  const std::optional<KeyTap> taken = takeInput();
+  const KeyTap tap = taken.value_or(KeyTap{});
   if (scripted_.drives) {
     io.MousePos = ImVec2(scripted_.x, scripted_.y);
     for (int i = 0; i < 3; ++i) io.MouseDown[i] = scripted_.buttons[i];
@@ -317,19 +320,20 @@ void ViewWindow::frame() {
     scripted_.wheel = 0.0f;
   }
   for (const int key : scripted_.keys) io.KeysDown[key] = true;
-  io.KeyCtrl = held.KeyCtrl || scripted_.ctrl || tap.ctrl;
-  io.KeyShift = held.KeyShift || scripted_.shift || tap.shift;
+  io.KeyCtrl = (taken ? tap.ctrl : heldCtrl) || scripted_.ctrl;
+  io.KeyShift = (taken ? tap.shift : heldShift) || scripted_.shift;
   ImGui::NewFrame();
+  const bool isTyping = io.WantTextInput && ImGui::IsAnyItemActive();  // the first alone stays for a frame
   layOut();
   drawPanels();
   drawCanvas();
-  handleKeys(tap);
+  if (!isTyping) handleKeys(tap);
   handleMouse();
   ask();
   ImGui::Render();
-  std::ranges::copy(held.KeysDown, io.KeysDown);
-  io.KeyCtrl = held.KeyCtrl;
-  io.KeyShift = held.KeyShift;
+  std::ranges::copy(heldKeys, io.KeysDown);
+  io.KeyCtrl = heldCtrl;
+  io.KeyShift = heldShift;
   present();
   ++framesDrawn_;
   keepFrame_ = false;

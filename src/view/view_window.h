@@ -178,7 +178,7 @@ class ViewWindow {
   // view_input.cpp
   void handleMouse();
   void listenToInput();
-  KeyTap takeInput();
+  std::optional<KeyTap> takeInput();
   void handleKeys(const KeyTap& tap);
   void navigate(float dx, float dy, int how);
   glm::dvec3 pivot();
@@ -231,7 +231,9 @@ class ViewWindow {
 
   std::vector<std::string> dropped_;
   std::deque<InputEvent> input_;       // that no frame has seen yet, in its order
+  glm::vec2 pointer_{};                // where it was at the last event
   std::array<bool, 3> buttons_{};      // of the mouse, as the frames have seen them
+  glm::vec2 mouse_{};                  // of the last frame
   int lastTapped_ = 0;                 // the key of the last frame
   std::set<int> pressedWithModifier_;  // when last pressed, with Ctrl or Alt: held on without it, they do not fly
   ScriptedInput scripted_;
@@ -271,7 +273,7 @@ class ScriptPlayer {
   void moveTo(double x, double y);
   bool isRefined() const;
   bool lacksScene(const ScriptLine& line) const;
-  void checkPatience();
+  void checkPatience(const ScriptLine& line);
   [[noreturn]] void fail(const ScriptLine& line, const std::string& what) const;
 
   ViewWindow& window_;

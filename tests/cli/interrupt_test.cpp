@@ -116,12 +116,12 @@ TEST_F(CliTest, AnInterruptedReferenceLeavesThePicturesWithoutIt) {
 
 TEST_F(CliTest, AnInterruptedVolumeOrPaperLeavesNothing) {
   const std::vector<std::vector<std::string>> commands = {
-      {"vsv", "atrium", "--vsv-size", "1024x1024x2048", "--validate", "-o", "out", "--quiet"},
+      {"vsv", "atrium", "--vsv-size", "1024x1024x1024", "--validate", "-o", "out", "--quiet"},
       {"reproduce", "dou2014", "-o", "out", "--quiet"}};
   for (const std::vector<std::string>& words : commands) {
     RunningProgram program(words, folder_);
     ASSERT_TRUE(program.waitUntil([&] { return fs::exists(folder_ / "out") && !fs::is_empty(folder_ / "out"); }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // both take many seconds
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // both take seconds
     EXPECT_EQ(program.end(SIGINT), 130) << words.front();
     EXPECT_NE(readFile(folder_ / "stderr").find("interrupted"), std::string::npos);
     EXPECT_TRUE(!fs::exists(folder_ / "out") || fs::is_empty(folder_ / "out")) << words.front();

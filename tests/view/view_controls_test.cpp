@@ -175,6 +175,8 @@ TEST(ViewControls, ABiasFileHasItsParameters) {
   EXPECT_EQ(findControl(controls, "a.knob.reach").get(state), "3");
   EXPECT_EQ(findControl(controls, "a.knob.other").get(state), "0.5");
   EXPECT_THROW(findControl(controls, "a.knob.rest"), UsageError);
+  EXPECT_THROW(readSession("s.json", saved, state), WorldError);
+  EXPECT_EQ(findControl(controls, "a.knob.reach").get(readPastState("undo", saved, state)), "3");
   set(state, controls, "a.bias", "none");
   const std::vector<std::string>& choices = findControl(controls, "a.bias").choices;
   EXPECT_NE(std::ranges::find(choices, path), choices.end());

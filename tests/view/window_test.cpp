@@ -245,12 +245,25 @@ TEST_F(WindowTest, KeysOfALongFrameComeInTheirOrder) {
 }
 
 // So does a mouse: a whole drag is one, from where it went down to where it came up.
-TEST_F(WindowTest, ADragOfALongFrameTurnsTheCamera) {
+TEST_F(WindowTest, ADragOfALongFrameMovesWhatItBeganOn) {
+  // The edge of the split, which is where the picture's middle is.
   expectFine(viewByHand("lshape --size 128 --map-size 64 --window 1000x700 --session s.json",
-                        "pid=$($x getwindowpid $id); kill -STOP $pid; $x mousedown 1 mousemove 740 320 mouseup 1; "
+                        "$x key --delay 0 Tab; sleep 1; pid=$($x getwindowpid $id); kill -STOP $pid; "
+                        "$x mousemove 665 400 mousedown 1 mousemove 825 420 mouseup 1 mousemove 700 300; "
                         "kill -CONT $pid; sleep 1; $x key --delay 0 ctrl+s"));
   const auto session = nlohmann::json::parse(readFile(folder() / "s.json"));
-  EXPECT_TRUE(session.value("camera", "").starts_with("eye:")) << session;
+  EXPECT_NEAR(std::stod(session.value("split-at", "0")), 0.75, 0.02) << session;
+  EXPECT_EQ(session.value("camera", ""), "") << session;
+}
+
+// A number typed into a slider, the one of the split's edge: the click comes before the digits, and they before Enter.
+TEST_F(WindowTest, ANumberIsTypedInALongFrame) {
+  expectFine(viewByHand("lshape --size 128 --map-size 64 --window 1000x700 --session s.json",
+                        "$x key --delay 0 Tab; sleep 1; pid=$($x getwindowpid $id); kill -STOP $pid; "
+                        "$x mousemove 105 225 keydown ctrl click 1 keyup ctrl key --delay 0 0 period 4 4 BackSpace; "
+                        "sleep 0.1; $x key --delay 0 BackSpace 2 5 Return ctrl+s; kill -CONT $pid; sleep 1"));
+  const auto session = nlohmann::json::parse(readFile(folder() / "s.json"));
+  EXPECT_EQ(session.value("split-at", ""), "0.25") << session;
 }
 
 // Held on when Ctrl is let go, S is no flight backwards.
