@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "gpu/glsl_comments.h"
+#include "gpu/glsl_words.h"
 
 #include <algorithm>
 #include <atomic>
@@ -116,7 +117,6 @@ void readHeader(UserBias& bias) {
 template <typename Visit>
 void eachDirective(const std::string& glsl, const Visit& visit) {
   const std::string code = gpu::blankComments(glsl, gpu::CommentBreaks::Blanked);
-  const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   bool begins = true;  // nothing but blanks since the line began
   int line = 1;
   for (size_t i = 0; i < code.size(); ++i) {
@@ -124,7 +124,7 @@ void eachDirective(const std::string& glsl, const Visit& visit) {
     if (begins && c == '#') {
       const size_t word = std::min(code.find_first_not_of(" \t", i + 1), code.size());
       size_t end = word;
-      while (end < code.size() && isWord(code[end])) ++end;
+      while (end < code.size() && gpu::isWordLetter(code[end])) ++end;
       visit(std::string_view(code).substr(word, end - word), i, line);
     }
     const bool breaks = c == '\r' || (c == '\n' && last != '\r');

@@ -2,7 +2,7 @@
 
 #include "base/child.h"
 #include "base/error.h"
-#include "gpu/glsl_comments.h"
+#include "gpu/glsl_words.h"
 #include "gpu/program.h"
 #include "gpu/shader_compiler.h"
 
@@ -30,45 +30,23 @@ constexpr uint64_t kMostValues = 4096;
 // 1.3 s and 0.4 GiB for 2^12 calls, 10 s and 1.1 GiB for 2^14, more than 100 s and 7 GiB for 2^17. This allows 2^12.
 constexpr uint64_t kMostInstructions = 100000;
 
-struct Token {
-  std::string text;  // a word or one character
-  int line = 1;
-};
-
-// Without comments.
-std::vector<Token> tokensOf(const std::string& glsl) {
-  const std::string code = gpu::blankComments(glsl);
-  const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; };
-  std::vector<Token> tokens;
-  int line = 1;
-  for (size_t i = 0; i < code.size();) {
-    size_t end = i + 1;
-    if (isWord(code[i]))
-      while (end < code.size() && isWord(code[end])) ++end;
-    if (std::isspace(static_cast<unsigned char>(code[i])) == 0) tokens.push_back({code.substr(i, end - i), line});
-    line += code[i] == '\n' ? 1 : 0;
-    i = end;
-  }
-  return tokens;
-}
-
 class LoopSearch {
  public:
-  explicit LoopSearch(std::vector<Token> tokens) : tokens_(std::move(tokens)) {}
+  explicit LoopSearch(std::vector<gpu::Word> words) : words_(std::move(words)) {}
 
   int line() const {
-    for (size_t i = 0; i < tokens_.size(); ++i)
-      if (is(i, "do") ? isEndlessDo(i) : (is(i, "while") || is(i, "for")) && isEndless(i)) return tokens_[i].line;
+    for (size_t i = 0; i < words_.size(); ++i)
+      if (is(i, "do") ? isEndlessDo(i) : (is(i, "while") || is(i, "for")) && isEndless(i)) return words_[i].line;
     return 0;
   }
 
  private:
-  bool is(size_t i, const char* text) const { return i < tokens_.size() && tokens_[i].text == text; }
+  bool is(size_t i, const char* text) const { return i < words_.size() && words_[i].text == text; }
 
   // Behind the bracket that closes the one at `i`.
   size_t behind(size_t i, const char* open, const char* close) const {
     int depth = 0;
-    for (; i < tokens_.size(); ++i) {
+    for (; i < words_.size(); ++i) {
       depth += is(i, open) ? 1 : is(i, close) ? -1 : 0;
       if (depth == 0) return i + 1;
     }
@@ -76,16 +54,16 @@ class LoopSearch {
   }
   size_t behindStatement(size_t i) const {
     if (is(i, "{")) return behind(i, "{", "}");
-    while (i < tokens_.size() && !is(i, ";")) ++i;
+    while (i < words_.size() && !is(i, ";")) ++i;
     return i + 1;
   }
   bool isTrue(size_t begin, size_t end) const {
     return end == begin + 1 &&
            (is(begin, "true") ||
-            (std::isdigit(static_cast<unsigned char>(tokens_[begin].text[0])) != 0 && !is(begin, "0")));
+            (std::isdigit(static_cast<unsigned char>(words_[begin].text[0])) != 0 && !is(begin, "0")));
   }
   bool hasExit(size_t begin, size_t end) const {
-    for (size_t i = begin; i < std::min(end, tokens_.size()); ++i)
+    for (size_t i = begin; i < std::min(end, words_.size()); ++i)
       if (is(i, "break") || is(i, "return") || is(i, "discard")) return true;
     return false;
   }
@@ -96,7 +74,7 @@ class LoopSearch {
     if (is(i, "for")) {
       begin = behindStatement(begin);
       end = begin;
-      while (end < tokens_.size() && !is(end, ";")) ++end;
+      while (end < words_.size() && !is(end, ";")) ++end;
       if (begin == end) return !hasExit(body, behindStatement(body));
     }
     // `do ... while (true);` is seen at its beginning.
@@ -107,7 +85,7 @@ class LoopSearch {
     return is(end, "while") && isTrue(end + 2, behind(end + 1, "(", ")") - 1) && !hasExit(i, end);
   }
 
-  std::vector<Token> tokens_;
+  std::vector<gpu::Word> words_;
 };
 
 // How many scalars the largest type of a module holds, arrays being what can make it large. SPIR-V 1.6, 3.49.6: each
@@ -167,10 +145,10 @@ uint64_t inlinedInstructions(const std::vector<uint32_t>& spirv) {
 
 // 0: nowhere. `next`: the word behind it, or null.
 int lineOf(const std::string& source, const std::string& word, const char* next = nullptr) {
-  const std::vector<Token> tokens = tokensOf(source);
-  for (size_t i = 0; i < tokens.size(); ++i)
-    if (tokens[i].text == word && (next == nullptr || (i + 1 < tokens.size() && tokens[i + 1].text == next)))
-      return tokens[i].line;
+  const std::vector<gpu::Word> words = gpu::wordsOf(source);
+  for (size_t i = 0; i < words.size(); ++i)
+    if (words[i].text == word && (next == nullptr || (i + 1 < words.size() && words[i + 1].text == next)))
+      return words[i].line;
   return 0;
 }
 
@@ -204,12 +182,12 @@ void explainLinkError(const UserBias& bias, const std::string& message) {
 }
 
 void checkText(const UserBias& bias) {
-  const std::vector<Token> tokens = tokensOf(bias.source);
-  for (size_t i = 0; i + 2 < tokens.size(); ++i)
-    if (tokens[i].text == "#" && tokens[i + 1].text == "define" && tokens[i + 2].text == "main")
+  const std::vector<gpu::Word> words = gpu::wordsOf(bias.source);
+  for (size_t i = 0; i + 2 < words.size(); ++i)
+    if (words[i].text == "#" && words[i + 1].text == "define" && words[i + 2].text == "main")
       throw WorldError(fmt::format("{}:{}: 'main' is the shader's that calls the bias; give the macro another name",
-                                   bias.path, tokens[i].line));
-  if (std::ranges::none_of(tokens, [](const Token& token) { return token.text == "userLit"; }))
+                                   bias.path, words[i].line));
+  if (std::ranges::none_of(words, [](const gpu::Word& one) { return one.text == "userLit"; }))
     throw fileError(bias.path, "has no function userLit",
                     "define bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap)");
   if (const int line = endlessLoop(bias.source))
@@ -222,7 +200,7 @@ void checkText(const UserBias& bias) {
 }  // namespace
 
 int endlessLoop(const std::string& glsl) {
-  return LoopSearch(tokensOf(glsl)).line();
+  return LoopSearch(gpu::wordsOf(glsl)).line();
 }
 
 void checkUserBias(const UserBias& bias) {

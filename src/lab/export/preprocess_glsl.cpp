@@ -1,46 +1,17 @@
 #include "lab/export/preprocess_glsl.h"
 
 #include "base/error.h"
+#include "gpu/glsl_words.h"
+#include "lab/export/macro_expansion.h"
 #include "shadow/user_bias.h"
 
 #include <algorithm>
-#include <iterator>
-#include <map>
-#include <memory>
-#include <optional>
 #include <set>
 #include <string_view>
 
 #include <fmt/format.h>
 
 namespace gnomon::code {
-
-namespace {
-
-bool isDigit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-
-}  // namespace
-
-bool isWordLetter(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-
-size_t lengthOfWord(std::string_view text) {
-  if (text.empty()) return 0;
-  const bool number = isDigit(text[0]) || (text[0] == '.' && text.size() > 1 && isDigit(text[1]));
-  if (!number && !isWordLetter(text[0])) return 0;
-  size_t length = 1;
-  while (length < text.size()) {
-    const char c = text[length], last = text[length - 1];
-    const bool exponentSign =
-        number && (c == '+' || c == '-') && (last == 'e' || last == 'E') && !text.starts_with("0x");
-    if (!isWordLetter(c) && !(number && c == '.') && !exponentSign) break;
-    ++length;
-  }
-  return length;
-}
 
 namespace {
 
@@ -58,28 +29,6 @@ size_t lengthOfOperator(std::string_view rest) {
     if (rest.starts_with(two)) return 2;
   return 1;
 }
-
-struct Macro {
-  bool hasParams = false;
-  std::vector<std::string> params;
-  std::vector<Token> body;
-};
-
-// Bounds within which all code stays that a person writes; what is beyond them exhausts the stack or the memory.
-constexpr int kDeepestMacros = 200;      // within macros
-constexpr size_t kMostTokens = 200'000;  // that all macros together become
-
-// The macros that a token is of: within its own expansion a macro is a plain name.
-struct Origin {
-  std::string name;
-  std::shared_ptr<const Origin> outer;
-  int depth = 1;
-};
-
-struct Waiting {
-  Token token;
-  std::shared_ptr<const Origin> origin;
-};
 
 struct Condition {
   bool active = true;
@@ -102,14 +51,14 @@ std::string withPlainBreaks(const std::string& text) {
 class Preprocessor {
  public:
   explicit Preprocessor(const ReadOptions& options) {
-    for (const char* name : {"GNOMON_FN", "GNOMON_SHARED_BEGIN", "GNOMON_SHARED_END"}) macros_[name] = {};
+    for (const char* name : {"GNOMON_FN", "GNOMON_SHARED_BEGIN", "GNOMON_SHARED_END"}) macros_.set(name, {});
     setMacro("GNOMON_OUT", {"T"}, "out T");
     setMacro("GNOMON_INOUT", {"T"}, "inout T");
     setMacro("GNOMON_GLSL_ONLY", {"T"}, "T");
     setMacro("GNOMON_CPP_ONLY", {"T"}, "");
     setMacro("GNOMON_PUBLIC_ONLY", {"T"}, options.publicMembers ? "T" : "");
     setMacro("GNOMON_MEMBER_ARRAY", {"object", "array"}, "object.array");
-    macros_["GNOMON_PRECISE"] = {.body = tokensOf("precise")};
+    macros_.set("GNOMON_PRECISE", {.body = tokensOf("precise")});
     kept_ = {"GNOMON_FN",
              "GNOMON_SHARED_BEGIN",
              "GNOMON_SHARED_END",
@@ -122,11 +71,11 @@ class Preprocessor {
              "GNOMON_PRECISE",
              "atan2"};
     // As glslang has them of our shaders (gpu/shader_compiler.cpp), so that what is exported is what is measured.
-    macros_["VULKAN"] = {.body = tokensOf("100")};
-    macros_["GL_core_profile"] = {.body = tokensOf("1")};
-    macros_["__VERSION__"] = {.body = tokensOf("460")};
-    for (const std::string& name : options.defined) macros_[name] = {};
-    for (const auto& [name, text] : options.aliases) macros_[name] = {.body = tokensOf(text)};
+    macros_.set("VULKAN", {.body = tokensOf("100")});
+    macros_.set("GL_core_profile", {.body = tokensOf("1")});
+    macros_.set("__VERSION__", {.body = tokensOf("460")});
+    for (const std::string& name : options.defined) macros_.set(name, {});
+    for (const auto& [name, text] : options.aliases) macros_.set(name, {.body = tokensOf(text)});
     for (const auto& [name, text] : options.aliases) kept_.insert(name);
   }
 
@@ -175,9 +124,7 @@ class Preprocessor {
     line_ = begin;
     if (!line.empty()) readLine(line);
     if (!conditions_.empty()) failOpen(conditions_.back());
-    expandWaiting();
-    if (!waiting_.empty()) failCall(waiting_.back().token);
-    return {.tokens = std::move(out_), .heads = std::move(heads_)};
+    return {.tokens = macros_.takeExpanded(), .heads = std::move(heads_)};
   }
 
  private:
@@ -187,15 +134,8 @@ class Preprocessor {
   [[noreturn]] static void failOpen(const Condition& one) {
     throw WorldError(fmt::format("{}:{}: #{} has no #endif; write one", one.file, one.line, one.word));
   }
-  [[noreturn]] static void failAt(const Token& token, const std::string& what, const std::string& remedy) {
-    throw WorldError(fmt::format("{}:{}: {}; {}", token.file, token.line, what, remedy));
-  }
-  [[noreturn]] static void failCall(const Token& token) {
-    failAt(token, fmt::format("the call of macro {} does not end", token.text), "close its parenthesis");
-  }
-
   void setMacro(const char* name, std::vector<std::string> params, const std::string& body) {
-    macros_[name] = {.hasParams = true, .params = std::move(params), .body = tokensOf(body)};
+    macros_.set(name, {.hasParams = true, .params = std::move(params), .body = tokensOf(body)});
   }
 
   std::vector<Token> tokensOf(const std::string& text) {
@@ -212,7 +152,7 @@ class Preprocessor {
         continue;
       }
       if (line.substr(i).starts_with("//")) return commentText(line.substr(i));
-      size_t length = lengthOfWord(line.substr(i));
+      size_t length = gpu::lengthOfWord(line.substr(i));
       if (length == 0) length = lengthOfOperator(line.substr(i));
       tokens.push_back({.text = std::string(line.substr(i, length)), .file = file_, .line = line_});
       i += length;
@@ -250,7 +190,7 @@ class Preprocessor {
     if (tokens.empty()) return;
     tokens.front().before = std::move(pending_);
     pending_.clear();
-    append(tokens);
+    macros_.read(tokens);
   }
 
   void endHead() {
@@ -326,11 +266,9 @@ class Preprocessor {
     } else if (!isActive()) {
       return;
     } else if (what == "define") {
-      expandWaiting();
       define(text, tokens);
     } else if (what == "undef") {
-      expandWaiting();
-      macros_.erase(nameIn(tokens));
+      macros_.remove(nameIn(tokens));
     } else if (what != "version" && what != "extension") {  // C++ has #include
       failDirective(what);
     }
@@ -368,143 +306,15 @@ class Preprocessor {
       ++at;
     }
     macro.body.assign(tokens.begin() + static_cast<std::ptrdiff_t>(at), tokens.end());
-    macros_[name] = macro;
+    macros_.set(name, std::move(macro));
   }
 
-  // A macro's call may go on over lines, so tokens wait until what a macro stands for changes, or the text ends.
-  void append(std::vector<Token>& tokens) {
-    for (Token& token : tokens) read_.push_back({.token = std::move(token), .origin = nullptr});
-  }
-
-  void expandWaiting() {
-    // The next token is the last.
-    std::vector<Waiting> stack(std::make_move_iterator(read_.rbegin()), std::make_move_iterator(read_.rend()));
-    read_.clear();
-    std::move(waiting_.begin(), waiting_.end(), std::back_inserter(stack));
-    waiting_.clear();
-    while (!stack.empty())
-      if (!expand(stack, out_)) break;
-    waiting_ = std::move(stack);
-  }
-
-  static bool isWithin(const std::shared_ptr<const Origin>& origin, const std::string& name) {
-    for (const Origin* at = origin.get(); at != nullptr; at = at->outer.get())
-      if (at->name == name) return true;
-    return false;
-  }
-
-  // The arguments of the call whose parenthesis is next on the stack, none expanded yet, and `from` behind it. Absent
-  // where it does not end.
-  std::optional<std::vector<std::vector<Waiting>>> takeArguments(std::vector<Waiting>& from, const Macro& macro,
-                                                                 std::string& after) const {
-    std::vector<std::vector<Waiting>> args(1);
-    int depth = 0;
-    for (size_t i = from.size(); i-- > 0;) {
-      const std::string& text = from[i].token.text;
-      if (text == "(" && depth++ == 0) continue;
-      if (text == ")" && --depth == 0) {
-        after = from[i].token.after;
-        from.resize(i);
-        return args;
-      }
-      if (text == "," && depth == 1 && macro.params.size() > 1)
-        args.emplace_back();
-      else
-        args.back().push_back(from[i]);
-    }
-    return std::nullopt;
-  }
-
-  // An argument with its macros replaced.
-  std::vector<Waiting> expanded(const std::vector<Waiting>& argument) {
-    std::vector<Waiting> stack(argument.rbegin(), argument.rend()), all;
-    if (++argumentDepth_ > kDeepestMacros) failDepth(argument.front().token);
-    while (!stack.empty()) {
-      if (!expand(stack, all)) {  // the name of a macro with parameters, which may be called where the argument goes
-        all.push_back(std::move(stack.back()));
-        stack.pop_back();
-      }
-    }
-    --argumentDepth_;
-    return all;
-  }
-
-  [[noreturn]] static void failDepth(const Token& token) {
-    failAt(token, fmt::format("macros are more than {} deep within macros", kDeepestMacros), "use fewer");
-  }
-
-  static void put(Waiting&& one, std::vector<Token>& to) { to.push_back(std::move(one.token)); }
-  static void put(Waiting&& one, std::vector<Waiting>& to) { to.push_back(std::move(one)); }
-
-  // One token, or one macro's call, which the stack then holds replaced. False where the call does not end yet.
-  template <typename To>
-  bool expand(std::vector<Waiting>& from, To& to) {
-    const auto found = macros_.find(from.back().token.text);
-    const bool calls = found != macros_.end() && found->second.hasParams;
-    if (calls && from.size() == 1 && !isWithin(from.back().origin, found->first)) return false;
-    if (found == macros_.end() || (calls && (from.size() == 1 || from[from.size() - 2].token.text != "(")) ||
-        isWithin(from.back().origin, found->first)) {
-      put(std::move(from.back()), to);
-      from.pop_back();
-      return true;
-    }
-    const Macro& macro = found->second;
-    const Waiting call = from.back();
-    from.pop_back();
-    std::string after = call.token.after;
-    std::vector<std::vector<Waiting>> args;
-    if (macro.hasParams) {
-      auto taken = takeArguments(from, macro, after);
-      if (!taken) {
-        from.push_back(call);
-        return false;
-      }
-      args = std::move(*taken);
-      if (args.size() < macro.params.size())
-        failAt(call.token, fmt::format("macro {} has {} arguments", call.token.text, macro.params.size()),
-               fmt::format("give it {}", macro.params.size()));
-      for (auto& argument : args)
-        if (!argument.empty()) argument = expanded(argument);
-    }
-    const int depth = call.origin != nullptr ? call.origin->depth + 1 : 1;
-    if (depth > kDeepestMacros) failDepth(call.token);
-    const auto origin =
-        std::make_shared<const Origin>(Origin{.name = call.token.text, .outer = call.origin, .depth = depth});
-    std::vector<Waiting> replaced;
-    for (const Token& part : macro.body) {
-      const auto param = std::ranges::find(macro.params, part.text);
-      if (param != macro.params.end()) {
-        const auto& argument = args[static_cast<size_t>(param - macro.params.begin())];
-        replaced.insert(replaced.end(), argument.begin(), argument.end());
-      } else {
-        replaced.push_back({.token = part, .origin = origin});
-        replaced.back().token.file = call.token.file;
-        replaced.back().token.line = call.token.line;
-      }
-      if (replacedCount_ + replaced.size() > kMostTokens)
-        failAt(call.token, fmt::format("its macros become more than {} words", kMostTokens), "let them stand for less");
-    }
-    replacedCount_ += replaced.size();
-    if (!replaced.empty()) {
-      Token& first = replaced.front().token;
-      first.before.insert(first.before.begin(), call.token.before.begin(), call.token.before.end());
-      if (replaced.back().token.after.empty()) replaced.back().token.after = after;
-    }
-    std::move(replaced.rbegin(), replaced.rend(), std::back_inserter(from));
-    return true;
-  }
-
-  std::map<std::string, Macro> macros_;
+  MacroExpansion macros_;
   std::set<std::string> kept_;  // that a #define does not replace
   std::vector<Condition> conditions_;
-  std::vector<Token> out_;
-  std::vector<Waiting> read_;     // since macros last changed
-  std::vector<Waiting> waiting_;  // a call that did not end there, its name last
   std::vector<std::string> pending_, head_;
   std::vector<std::pair<std::string, std::vector<std::string>>> heads_;
   bool inHead_ = false;
-  int argumentDepth_ = 0;  // of calls within arguments
-  size_t replacedCount_ = 0;
   std::string file_;
   int line_ = 1;
 };

@@ -1,6 +1,7 @@
 #include "lab/export/read_glsl.h"
 
 #include "base/error.h"
+#include "gpu/glsl_words.h"
 #include "lab/export/preprocess_glsl.h"
 
 #include <algorithm>
@@ -381,7 +382,7 @@ class Parser {
       want(")");
       if (expr.kids[0].kind == Expr::Kind::Atom) expr = Expr(expr.kids[0]);
     } else {
-      if (at_ >= tokens_.size() || (!isWordLetter(tokens_[at_].text[0]) && tokens_[at_].text[0] != '.'))
+      if (at_ >= tokens_.size() || (!gpu::isWordLetter(tokens_[at_].text[0]) && tokens_[at_].text[0] != '.'))
         fail("an expression");
       expr = atom(takeText());
     }

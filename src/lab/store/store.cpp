@@ -131,6 +131,7 @@ void putCase(const sql::Database& database, const StoredCase& of, const std::opt
 
 }  // namespace
 
+// Before this process opens the store: closing any descriptor of a file lets go its locks there, SQLite's among them.
 void checkStorePath(const std::filesystem::path& path, sql::Open how) {
   constexpr std::string_view kMagic("SQLite format 3\0", 16);
   constexpr const char* kRemedy = "name a file that gnomon sweep wrote";
