@@ -2,10 +2,13 @@
 
 #include "base/error.h"
 #include "gpu/glsl_comments.h"
+#include "lab/export/expressions.h"
 #include "lab/export/preprocess_glsl.h"
+#include "lab/export/untranslated.h"
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -100,11 +103,13 @@ class Refusal {
       if (!isNew)
         failAt(lineOfDeclared(words_, type, decl.name),
                fmt::format("{} is exported as {}, as is {}; rename it", decl.name, at->first, at->second));
-      for (const Param& param : decl.params) checkLocal(param.type, param.name);
-      std::vector<Stmt> body = decl.body;
-      eachStmt(body, [&](const Stmt& stmt) {
-        for (const Declarator& declared : stmt.names) checkLocal(stmt.type, declared.name);
+      std::map<std::string, std::string> variables;  // as they are printed
+      for (const Param& param : decl.params) checkLocal(param.type, param.name, variables);
+      eachStmt(decl.body, [&](const Stmt& stmt) {
+        for (const Declarator& declared : stmt.names) checkLocal(stmt.type, declared.name, variables);
       });
+      for (const Stmt& member : decl.members)
+        for (const Declarator& declared : member.names) checkPrinted(member.type, declared.name, variables);
     }
   }
 
@@ -137,30 +142,18 @@ class Refusal {
   }
 
   void ofBuiltIns() {
-    eachUserExpr([&](const Expr& e) {
-      if (e.kind == Expr::Kind::Atom && e.text.starts_with("gl_"))
-        failAt(lineOf(words_, e.text),
-               fmt::format("{} is the calling shader's, which export does not know; write it without", e.text));
+    eachUserExpr([&](const Expr& e, const Variables& variables) {
+      if (e.kind != Expr::Kind::Atom || isNumber(e) || e.text == "true" || e.text == "false") return;
+      const bool isVariable = std::ranges::any_of(variables, [&](const Variable& it) { return it.name == e.text; });
+      if (isVariable || folded_.contains(e.text) || program_.find(e.text) != nullptr) return;
+      failAt(e.line, fmt::format("{} is the calling shader's, which export does not know; write it without", e.text));
     });
   }
 
-  void ofGlslEs() {
-    const auto fail = [&](const std::string& word) {
-      failAt(lineOf(words_, word),
-             fmt::format("GLSL ES 3.00 has no {}; write it without, or export --lang glsl", word));
-    };
-    eachUserType([&](const std::string& type) {
-      if (isDoubleType(type)) fail(type);
-    });
-    eachUserExpr([&](const Expr& e) {
-      if (isDouble(e)) fail(e.text);
-      const bool isMissing = isDoubleType(e.text) || missingInEs().contains(e.text);
-      if (e.kind == Expr::Kind::Call && isMissing && program_.find(e.text) == nullptr) fail(e.text);
-    });
+  void ofUntranslated() const {
+    if (const auto found = firstUntranslated(program_, language_))
+      failAt(found->line > 0 ? found->line : lineOf(words_, found->word), found->message);
   }
-
-  // What has no translation to HLSL and Metal yet, where it would be another language's words, or mean something else.
-  void ofUntranslated();
 
  private:
   [[noreturn]] void failAt(int line, const std::string& what) const {
@@ -219,30 +212,30 @@ class Refusal {
              fmt::format("'{}' is a name that export takes for its own (docs/shared_glsl.md); rename it", name));
   }
 
-  void checkLocal(const std::string& type, const std::string& name) const {
+  // `printed`: the names of one function's variables, or of a structure's members, by what they are printed as.
+  void checkPrinted(const std::string& type, const std::string& name,
+                    std::map<std::string, std::string>& printed) const {
+    const auto [at, isNew] = printed.emplace(variableNameIn(language_, name), name);
+    if (!isNew && at->second != name)
+      failAt(lineOfDeclared(words_, type, name),
+             fmt::format("{} is exported as {}, as is {}; rename one", name, at->first, at->second));
+  }
+
+  void checkLocal(const std::string& type, const std::string& name, std::map<std::string, std::string>& printed) const {
     checkName(type, name, type);
+    checkPrinted(type, name, printed);
     const bool isPrefixed = name.starts_with("gnomon") || name.starts_with("Gnomon") || name.starts_with("kGnomon");
     if (isPrefixed || (name == "textures" && language_ == Language::Msl))
       failAt(lineOfDeclared(words_, type, name),
              fmt::format("'{}' may be another's name in exported code; rename it", name));
   }
 
-  template <typename Visit>
-  void eachUserExpr(const Visit& visit) const {
-    for (Decl decl : program_.decls)
-      if (decl.file == kUserBiasFile) eachExpr(decl, visit);
+  void eachUserExpr(const std::function<void(const Expr&)>& visit) const {
+    eachUserExpr([&](const Expr& e, const Variables&) { visit(e); });
   }
-
-  // Of variables, parameters, members, and what functions return.
-  template <typename Visit>
-  void eachUserType(const Visit& visit) const {
-    for (Decl decl : program_.decls) {
-      if (decl.file != kUserBiasFile) continue;
-      if (decl.kind != Decl::Kind::Struct) visit(decl.type);
-      for (const Param& param : decl.params) visit(param.type);
-      eachStmt(decl.members, [&](const Stmt& stmt) { visit(stmt.type); });
-      eachStmt(decl.body, [&](const Stmt& stmt) { visit(stmt.type); });
-    }
+  void eachUserExpr(const std::function<void(const Expr&, const Variables&)>& visit) const {
+    for (const Decl& decl : program_.decls)
+      if (decl.file == kUserBiasFile) eachExprAndItsVariables(decl, visit);
   }
 
   static bool isKnobs(const Expr& e) { return e.kind == Expr::Kind::Member && e.text == "knobs"; }
@@ -258,17 +251,6 @@ class Refusal {
     return reads;
   }
 
-  static bool isDouble(const Expr& e) {
-    const bool isNumber = std::isdigit(static_cast<unsigned char>(e.text[0])) != 0 || e.text[0] == '.';
-    return e.kind == Expr::Kind::Atom && isNumber && (e.text.ends_with("lf") || e.text.ends_with("LF"));
-  }
-
-  static bool isDoubleType(const std::string& type) {
-    return type == "double" || type.starts_with("dvec") || type.starts_with("dmat");
-  }
-
-  static const std::set<std::string>& missingInEs();
-
   const Program& program_;
   const UserBias& user_;
   Language language_;
@@ -276,76 +258,6 @@ class Refusal {
   std::set<std::string> folded_, roots_;               // "reach"; "tap" of "tap.z1"
   std::set<std::pair<std::string, std::string>> own_;  // types and names of Gnomon's
 };
-
-const std::set<std::string>& Refusal::missingInEs() {
-  static const std::set<std::string> names = {"bitCount",
-                                              "bitfieldExtract",
-                                              "bitfieldInsert",
-                                              "bitfieldReverse",
-                                              "dFdxCoarse",
-                                              "dFdxFine",
-                                              "dFdyCoarse",
-                                              "dFdyFine",
-                                              "findMSB",
-                                              "fma",
-                                              "frexp",
-                                              "fwidthCoarse",
-                                              "fwidthFine",
-                                              "imulExtended",
-                                              "ldexp",
-                                              "packDouble2x32",
-                                              "packSnorm4x8",
-                                              "packUnorm4x8",
-                                              "uaddCarry",
-                                              "umulExtended",
-                                              "unpackDouble2x32",
-                                              "unpackSnorm4x8",
-                                              "unpackUnorm4x8",
-                                              "usubBorrow"};
-  return names;
-}
-
-// GLSL's functions that have the same name and meaning in HLSL and Metal, or a name there that print_code.cpp knows.
-const std::set<std::string>& translatedFunctions() {
-  static const std::set<std::string> names = {
-      "abs",        "acos",  "all",         "any",       "asin",  "atan",           "ceil",    "clamp",
-      "cos",        "cross", "distance",    "dot",       "exp",   "exp2",           "findLSB", "floatBitsToUint",
-      "floor",      "fract", "inversesqrt", "isinf",     "isnan", "length",         "log",     "log2",
-      "max",        "min",   "mix",         "normalize", "pow",   "reflect",        "sign",    "sin",
-      "smoothstep", "sqrt",  "step",        "tan",       "trunc", "uintBitsToFloat"};
-  return names;
-}
-
-bool isSwizzleOf(const Expr& e, size_t count) {
-  return e.kind == Expr::Kind::Member && e.text.size() >= count &&
-         e.text.find_first_not_of("xyzw") == std::string::npos;
-}
-
-void Refusal::ofUntranslated() {
-  const auto fail = [&](const std::string& word, const std::string& what) {
-    failAt(lineOf(words_, word), fmt::format("{} is not translated to {}; write it without, or export --lang glsl",
-                                             what, language_ == Language::Hlsl ? "HLSL" : "Metal"));
-  };
-  std::set<std::string> types = {"void", "bool",  "int",   "uint",  "float", "vec2", "vec3",
-                                 "vec4", "ivec2", "ivec3", "uvec2", "uvec3", "uvec4"};
-  std::set<std::string> functions = translatedFunctions();
-  for (const Decl& decl : program_.decls) (decl.kind == Decl::Kind::Struct ? types : functions).insert(decl.name);
-  eachUserType([&](const std::string& type) {
-    if (!type.empty() && !types.contains(type)) fail(type, type);
-  });
-  eachUserExpr([&](const Expr& e) {
-    if (isDouble(e)) fail(e.text, e.text);
-    if (e.kind != Expr::Kind::Call) return;
-    if (!types.contains(e.text) && !functions.contains(e.text)) fail(e.text, e.text);
-    if (e.text == "atan" && e.kids.size() != 1) fail(e.text, "atan of two numbers");
-    const size_t count = e.text.starts_with("vec") && e.text.size() == 4 ? static_cast<size_t>(e.text[3] - '0') : 0;
-    if (count == 0 || e.kids.size() != 1) return;
-    // One number for all components, or a longer vector: they are not told apart here.
-    const Expr& only = e.kids[0];
-    const bool isNumber = only.kind == Expr::Kind::Atom && std::isdigit(static_cast<unsigned char>(only.text[0])) != 0;
-    if (!isNumber && !isSwizzleOf(only, count)) fail(e.text, fmt::format("{} of one value that is no number", e.text));
-  });
-}
 
 }  // namespace
 
@@ -355,8 +267,7 @@ void refuseUserCode(const Program& program, const UserBias& user, const Known& k
   refusal.ofNames(known, taken);
   refusal.ofKnobs();
   refusal.ofBuiltIns();
-  if (language == Language::GlslEs) refusal.ofGlslEs();
-  if (language == Language::Hlsl || language == Language::Msl) refusal.ofUntranslated();
+  refusal.ofUntranslated();
 }
 
 void refuseLeftParams(const Program& program, const UserBias& user) {
