@@ -139,10 +139,10 @@ const Parameterization* parseMarchMap(const std::string& name) {
                                nearest.empty() ? "" : fmt::format("did you mean {}? ", nearest), marchMaps()));
 }
 
-// A picture where -o names one (a stream gets a PNG), else a folder.
-bool isPicture(const std::string& out) {
+// Of -o: a picture where it names one (a stream gets a PNG), else a folder.
+bool namesFolder(const std::string& out) {
   const std::string extension = std::filesystem::path(out).extension().string();
-  return extension == ".exr" || extension == ".png" || isStream(out);
+  return !out.empty() && extension != ".exr" && extension != ".png" && !isStream(out);
 }
 
 DensityPlacement placementOf(const FogFlags& flags, const glm::dvec3& originW) {
@@ -228,7 +228,7 @@ std::string integratorsHelp() {
 
 FogOptions fogOptions(const FogFlags& flags, const glm::dvec3& originW) {
   const std::optional<FogMotion> motion = motionOf(flags, originW);
-  const bool folder = !flags.out.empty() && !isPicture(flags.out);
+  const bool folder = namesFolder(flags.out);
   // A picture alone needs one way to integrate; whoever asks for numbers wants all.
   const bool compares = folder || flags.truth || !flags.json.empty() || flags.out.empty();
   FogOptions options{.integrators = chosenIntegrators(flags.integrators, compares),
@@ -299,16 +299,16 @@ void writePicture(const std::filesystem::path& path, const std::string& show, co
 }
 
 int runFogVerb(const FogFlags& flags) {
-  const bool isFolder = !flags.out.empty() && !isPicture(flags.out);
-  if (isFolder)
+  const bool toFolder = namesFolder(flags.out);
+  if (toFolder)
     checkFolderName(flags.out,
                     "write .png or .exr for a picture; of --frames give a folder, where ffmpeg makes frames/*.mp4");
   if (isStream(flags.out) && flags.truth)
     throw UsageError(fmt::format("-o {}: --truth writes two pictures; name a file or a folder", flags.out));
-  for (const std::string& file : {isFolder ? "" : flags.out, flags.json})
+  for (const std::string& file : {toFolder ? "" : flags.out, flags.json})
     if (!file.empty()) checkOutput(file);
   const InterruptGuard guard;  // before there is a folder that must not stay
-  ResultFolder folder(isFolder ? flags.out : "", "results.json");
+  ResultFolder folder(toFolder ? flags.out : "", "results.json");
   const Session session = openSession(flags.scene);
   FogOptions options = fogOptions(flags, session.scene().originW);
   tellUnusedFlags(flags, options);
@@ -415,10 +415,11 @@ Run addFog(CLI::App* verb) {
   verb->get_option("--exposure")->group("View and device");
   {
     const OptionGroup group(*verb, "Output");
-    offersFiles(
+    offersFilesOrFolder(
         verb->add_option("-o,--out", flags->out,
                          "a picture by the first of --integrators, .exr (cd/m^2) or .png (exposed); or a folder for "
-                         "report.html, results.json and all pictures"));
+                         "report.html, results.json and all pictures"),
+        namesFolder);
     offersOneOf(verb->add_option("--show", flags->show,
                                  "of a .png: surfaces and medium (beauty), or the medium alone at its own exposure")
                     ->check(oneOf(fogPicturesToShow()))

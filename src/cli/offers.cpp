@@ -13,7 +13,7 @@ std::map<const CLI::Option*, Offers>& declared() {
 }
 
 CLI::Option* declare(CLI::Option* option, Offers::Kind kind, std::vector<std::string> values) {
-  declared()[option] = {.kind = kind, .values = std::move(values)};
+  declared()[option] = {.kind = kind, .values = std::move(values), .isFolder = nullptr};
   return option;
 }
 
@@ -33,6 +33,11 @@ CLI::Option* offersFiles(CLI::Option* option, std::vector<std::string> besides) 
 
 CLI::Option* offersFolders(CLI::Option* option) {
   return declare(option, Offers::Kind::Folders, {});
+}
+
+CLI::Option* offersFilesOrFolder(CLI::Option* option, bool (*isFolder)(const std::string& value)) {
+  declared()[option] = {.kind = Offers::Kind::Files, .values = {}, .isFolder = isFolder};
+  return option;
 }
 
 const Offers& offersOf(const CLI::Option* option) {

@@ -71,7 +71,9 @@ void refuseToWriteOverInputs(const CLI::App& verb) {
     if (option->count() == 0 || !isWritten(*option)) continue;
     const std::string file = option->results().front();
     if (isStream(file)) continue;
-    if (offersOf(option).kind == Offers::Kind::Folders) folders.emplace_back(option->get_name(), file);
+    const Offers& offers = offersOf(option);
+    const bool isFolder = offers.kind == Offers::Kind::Folders || (offers.isFolder != nullptr && offers.isFolder(file));
+    if (isFolder) folders.emplace_back(option->get_name(), file);
     if (fs::is_directory(file, failure)) continue;
     for (const auto& [flag, other] : written)
       if (areOne(other, file))

@@ -107,11 +107,8 @@ int runMerge(const SweepFlags& flags) {
 
 int runDry(const SweepFlags& flags, const Plan& plan, const Axes& axes, const SweepOptions& options) {
   std::unique_ptr<Store> store;
-  // An empty file is a store that is yet to be made, as after a kill at its start.
-  std::error_code failure;
   const fs::path path = storeOf(flags);
-  if (fs::exists(path) && (!fs::is_regular_file(path) || fs::file_size(path, failure) > 0))
-    store = std::make_unique<Store>(path, sql::Open::Existing);
+  if (isStoreThere(path)) store = std::make_unique<Store>(path, sql::Open::Existing);
   const SweepEstimate estimate = estimateSweep(plan, axes, store.get(), options);
   if (estimate.cases == 0 && options.shards == 1) throw UsageError(kNoCase);
   say(fmt::format(
@@ -157,9 +154,9 @@ int runCollect(const SweepFlags& flags, const std::string& planHash) {
     return 0;
   }
   std::vector<fs::path> parts;
-  if (fs::exists(run.store)) parts.push_back(run.store);
+  if (isStoreThere(run.store)) parts.push_back(run.store);
   for (int shard = 1; shard <= run.shards; ++shard)
-    if (fs::exists(run.part(shard))) parts.push_back(run.part(shard));
+    if (isStoreThere(run.part(shard))) parts.push_back(run.part(shard));
   if (parts.empty())
     throw WorldError(fmt::format("no shard wrote anything; see the logs in {}", run.folder().string()));
   const MergeReport report = mergeStores(parts, run.store);
@@ -295,8 +292,9 @@ Run addSweep(CLI::App* verb) {
     const OptionGroup group(*verb, "Store and machines");
     offersFiles(verb->add_option("--db", flags->db,
                                  "the store: a SQLite file, made or gone on with; default: the plan's name with .db"));
-    verb->add_option("--shard", flags->shard,
-                     "i/n: every n-th view from the i-th on, for n machines with a store each");
+    verb->add_option(
+        "--shard", flags->shard,
+        "i/n: of each n views in turn one, another place of them each time, for n machines with a store each");
     verb->add_flag("--slurm", flags->slurm,
                    "submit the shards as a job array of Slurm, and a job that submits again what fails and merges");
     verb->add_option("--shards", flags->shards, "how many, of --slurm")

@@ -5,12 +5,16 @@
 #include "lab/store/store.h"
 #include "tests/base/places.h"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <thread>
+
+#include <fmt/format.h>
 
 namespace gnomon {
 namespace {
@@ -186,6 +190,44 @@ TEST_F(SweepCliTest, FlagsWithoutEffectAreWrong) {
   expectMistake("sweep merge @/a.db --shards 3 -o @/all.db", 2, "--shards has no effect: merge takes stores and -o");
 }
 
+// A sweep has one device and one scene at a time, and so its memory is that of one.
+TEST_F(SweepCliTest, ADryRunTellsAboutTheMemoryOfTheSweep) {
+  if (GNOMON_SANITIZE) GTEST_SKIP() << "a sanitizer keeps what is freed";
+  writeTextFile(folder_ / "large.json", R"({"scenes": ["atrium"], "size": "768", "repeats": 1, "maps": ["cube"],
+    "map_sizes": [1024], "biases": ["constant", "witness"]})");
+  ASSERT_EQ(run("sweep @/large.json --db @/large.db").exitCode, 0);
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);  // of the largest so far, which is that
+  const double swept = static_cast<double>(usage.ru_maxrss) / 1024.0;
+  const std::string dry = run("sweep @/large.json --db @/absent.db --dry-run").out;
+  double told = 0.0;
+  const size_t at = dry.find("tried; ");
+  ASSERT_NE(at, std::string::npos) << dry;
+  ASSERT_EQ(std::sscanf(dry.c_str() + at, "tried; %lf MiB of memory", &told), 1) << dry;
+  EXPECT_GT(told, 0.8 * swept);
+  EXPECT_LT(told, 1.15 * swept);  // 1.06; with a second scene beside the first 1.27 and more
+}
+
+// As a kill at a store's start leaves it.
+TEST_F(SweepCliTest, SlurmGoesOnWithAnEmptyStore) {
+  std::filesystem::create_directory(folder_ / "all.db.slurm");
+  writeTextFile(folder_ / "all.db", "");
+  for (const char* shard : {"1", "2"})
+    ASSERT_EQ(run(fmt::format("sweep @/p.json --shard {0}/2 --db @/all.db.slurm/part-{0}.db", shard)).exitCode, 0);
+  const std::string collect = "sweep @/p.json --db @/all.db --slurm --shards 2 --slurm-collect ";
+  const test::Result collected = run(collect + "1");
+  EXPECT_EQ(collected.exitCode, 0) << collected.err;
+  ASSERT_EQ(run("sweep @/p.json --db @/whole.db").exitCode, 0);
+  EXPECT_EQ(contents("all.db"), contents("whole.db"));
+  // A part that is empty has nothing to merge, and after the last submission is told as a failure.
+  std::filesystem::remove(folder_ / "all.db");
+  writeTextFile(folder_ / "all.db.slurm" / "part-2.db", "");
+  const test::Result partly = run(collect + "3");
+  EXPECT_EQ(partly.exitCode, 1);
+  EXPECT_NE(partly.err.find("shards 2 failed 3 times"), std::string::npos) << partly.err;
+  EXPECT_NE(partly.out.find("wrote "), std::string::npos) << partly.out;
+}
+
 TEST_F(SweepCliTest, WhatSlurmRefusesLeavesNoFolder) {
   const auto submit = [&](const char* text) {
     writeTextFile(folder_ / "bin" / "sbatch", text);
@@ -200,6 +242,9 @@ TEST_F(SweepCliTest, WhatSlurmRefusesLeavesNoFolder) {
   EXPECT_NE(refused.err.find("refused the job: no such partition"), std::string::npos) << refused.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "deep"));
   EXPECT_EQ(submit("#!/bin/sh\necho 7\n").exitCode, 0);
+  writeTextFile(folder_ / "deep" / "all.db", "");
+  const test::Result intoEmpty = submit("#!/bin/sh\necho 7\n");
+  EXPECT_EQ(intoEmpty.exitCode, 0) << intoEmpty.err;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "deep" / "all.db.slurm" / "collect.sh"));
   ::setenv("PATH", path.c_str(), 1);
 }

@@ -173,6 +173,11 @@ TEST_F(UsageTest, NoOutputReplacesWhatTheRunReads) {
                 "@/out/numbers/r.json")
                 .exitCode,
             1);  // no such folder, and no conflict
+  for (const char* file : {"@/out/report.html", "@/out/results.json", "@/out/pictures/runs.exr"}) {
+    const Result result = run(std::string("fog grate -o @/out --json ") + file);
+    EXPECT_EQ(result.exitCode, 2) << file;
+    EXPECT_TRUE(has(result.err, "--out writes there, too")) << result.err;
+  }
   EXPECT_TRUE(has(run("fog grate -o @/b.png --json @/b.png").err, "--json writes there, too") ||
               has(run("fog grate -o @/b.png --json @/b.png").err, "--out writes there, too"));
 }

@@ -1,6 +1,11 @@
-// Comments are what the compiler takes for comments, and everything else keeps its place.
+// Words, and comments: they are what the compiler takes for comments, and everything else keeps its place.
 #include "gpu/glsl_comments.h"
+#include "gpu/glsl_words.h"
 
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace gnomon::gpu {
@@ -47,6 +52,13 @@ TEST(GlslComments, WithoutAnEndReachToTheEndOfTheText) {
   EXPECT_EQ(blankComments("a /* b\nc"), "a     \n ");
   EXPECT_EQ(blankComments("a /*"), "a   ");
   EXPECT_EQ(blankComments("a /*/"), "a    ");
+}
+
+TEST(GlslWords, AreNamesNumbersAndSingleCharacters) {
+  std::vector<std::string> texts;
+  for (const Word& word : wordsOf("a1.b /* c\n d */ += 1.5e-3f // e\n.5"))
+    texts.push_back(fmt::format("{}:{}", word.text, word.line));
+  EXPECT_EQ(texts, (std::vector<std::string>{"a1:1", ".:1", "b:1", "+:2", "=:2", "1.5e-3f:2", ".5:3"}));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "lab/sweep/random_places.h"
 #include "lab/sweep/results_version.h"
 #include "lab/sweep/scene_survey.h"
+#include "lab/sweep/slurm.h"
 #include "scene/generate.h"
 #include "scene/gltf.h"
 #include "tests/base/places.h"
@@ -214,6 +215,18 @@ TEST(Sweep, AShardHasItsShareOfEveryNthView) {
       for (const int count : counts) EXPECT_EQ(count, 144 / static_cast<int>(step) / shards) << shards << " " << step;
     }
   }
+}
+
+TEST(Sweep, AShardThatIsDoneIsDoneInItsDivisionOnly) {
+  const TemporaryFolder folder;
+  const SlurmRun run{.store = folder.path() / "all.db", .planHash = "0123", .shards = 2};
+  fs::create_directory(run.folder());
+  Store part(run.part(1), sql::Open::Create);
+  part.setNote("shard 1/2 of 0123", "done");  // as it was written before it had a word for the division
+  EXPECT_EQ(missingShards(run), (std::vector<int>{1, 2}));
+  part.setNote(shardNote("0123", 1, 2), "done");
+  EXPECT_EQ(missingShards(run), std::vector<int>{2});
+  EXPECT_NE(shardNote("0123", 1, 2).find(kShardDivision), std::string::npos);
 }
 
 TEST(Sweep, ShardsAndAMergeAreTheWhole) {

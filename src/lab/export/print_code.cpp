@@ -1,5 +1,7 @@
 #include "lab/export/print_code.h"
 
+#include "lab/export/expressions.h"
+
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -112,11 +114,7 @@ class Printer {
     const std::string own = nameIn(options_.language, text);
     return own == text && isReserved(options_.language, own) ? own + "_" : own;
   }
-  // Of members and variables.
-  std::string local(const std::string& text) const {
-    const bool isCLike = options_.language == Language::Hlsl || options_.language == Language::Msl;
-    return isReserved(options_.language, text) || (isCLike && isShapedType(text)) ? text + "_" : text;
-  }
+  std::string local(const std::string& text) const { return variableNameIn(options_.language, text); }
 
   std::string expr(const Expr& e) const {
     switch (e.kind) {
@@ -145,8 +143,7 @@ class Printer {
   std::string decl(const Decl& d) {
     locals_.clear();
     for (const Param& p : d.params) locals_.insert(p.name);
-    Decl copy = d;
-    eachStmt(copy.body, [&](Stmt& stmt) {
+    eachStmt(d.body, [&](const Stmt& stmt) {
       for (const Declarator& declared : stmt.names) locals_.insert(declared.name);
     });
     if (d.kind == Decl::Kind::Function && !d.hasBody) {
@@ -180,10 +177,16 @@ class Printer {
 
  private:
   std::string call(const Expr& e) const {
-    const bool isVector = e.text == "vec2" || e.text == "vec3" || e.text == "vec4";
+    const bool isOfFloats = e.text == "vec2" || e.text == "vec3" || e.text == "vec4";
     const bool cLike = options_.language == Language::Hlsl || options_.language == Language::Msl;
-    if (isVector && cLike && e.kids.size() == 1 &&
-        !(e.kids[0].kind == Expr::Kind::Atom && startsWithDigit(e.kids[0].text))) {
+    // HLSL's vectors have no constructor that spreads a number.
+    if (options_.language == Language::Hlsl && isVector(e.text) && e.kids.size() == 1 && isNumber(e.kids[0])) {
+      const std::string number = expr(e.kids[0]);
+      std::string text = name(e.text) + "(" + number;
+      for (int i = 1; i < componentCount(e.text); ++i) text += ", " + number;
+      return text + ")";
+    }
+    if (isOfFloats && cLike && e.kids.size() == 1 && !isNumber(e.kids[0])) {
       const std::string inner = expr(e.kids[0]);
       const bool simple = e.kids[0].kind != Expr::Kind::Binary && e.kids[0].kind != Expr::Kind::Ternary;
       return (simple ? inner : "(" + inner + ")") + (e.text == "vec2" ? ".xy" : e.text == "vec3" ? ".xyz" : "");
@@ -333,6 +336,11 @@ std::string nameIn(Language language, const std::string& glslName) {
                                                       : none;
   const auto found = names.find(glslName);
   return found == names.end() ? glslName : found->second;
+}
+
+std::string variableNameIn(Language language, const std::string& name) {
+  const bool isCLike = language == Language::Hlsl || language == Language::Msl;
+  return isReserved(language, name) || (isCLike && isShapedType(name)) ? name + "_" : name;
 }
 
 std::string commentLines(const std::vector<std::string>& lines, int indent) {

@@ -31,6 +31,9 @@ std::string prefixedName(const Decl& decl);
 // A type's or a built-in function's name in the language.
 std::string nameIn(Language language, const std::string& glslName);
 
+// A variable's or member's name in the language: with "_" behind it where it is a word of its own.
+std::string variableNameIn(Language language, const std::string& name);
+
 // Lines of comments, wrapped to the width of the page.
 std::string commentLines(const std::vector<std::string>& lines, int indent = 0);
 

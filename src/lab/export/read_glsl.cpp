@@ -315,32 +315,37 @@ class Parser {
     last_.clear();
   }
 
-  static Expr made(Expr::Kind kind, std::string text, std::vector<Expr> kids) {
+  static Expr made(Expr::Kind kind, std::string text, std::vector<Expr> kids, int line) {
     Expr expr;
     expr.kind = kind;
     expr.text = std::move(text);
     expr.kids = std::move(kids);
+    expr.line = line;
     return expr;
   }
+
+  // Of the next token.
+  int lineHere() const { return at_ < tokens_.size() ? tokens_[at_].line : 0; }
 
   Expr parseExpr() {
     const Level level(*this);
     Expr left = parseTernary();
-    Expr probe = made(Expr::Kind::Binary, at_ < tokens_.size() ? tokens_[at_].text : "", {});
+    Expr probe = made(Expr::Kind::Binary, at_ < tokens_.size() ? tokens_[at_].text : "", {}, lineHere());
     if (!probe.isAssignment()) return left;
-    const std::string text = takeText();
-    return made(Expr::Kind::Binary, text, {std::move(left), parseExpr()});
+    takeText();
+    return made(Expr::Kind::Binary, probe.text, {std::move(left), parseExpr()}, probe.line);
   }
 
   Expr parseTernary() {
     const Level level(*this);
     Expr condition = parseBinary(0);
     if (!is("?")) return condition;
+    const int line = lineHere();
     want("?");
     Expr yes = parseTernary();
     want(":");
     Expr no = parseTernary();
-    return made(Expr::Kind::Ternary, "?", {std::move(condition), std::move(yes), std::move(no)});
+    return made(Expr::Kind::Ternary, "?", {std::move(condition), std::move(yes), std::move(no)}, line);
   }
 
   // How tightly a binary operator binds; 0: none.
@@ -358,8 +363,9 @@ class Parser {
       const int tight = binding(tokens_[at_].text);
       if (tight == 0 || tight <= least) break;
       countOperator();
+      const int line = lineHere();
       const std::string text = takeText();
-      left = made(Expr::Kind::Binary, text, {std::move(left), parseBinary(tight)});
+      left = made(Expr::Kind::Binary, text, {std::move(left), parseBinary(tight)}, line);
     }
     return left;
   }
@@ -368,25 +374,28 @@ class Parser {
     const Level level(*this);
     for (const char* prefix : {"-", "+", "!", "~", "++", "--"}) {
       if (!is(prefix)) continue;
+      const int line = lineHere();
       takeText();
-      return made(Expr::Kind::Prefix, prefix, {parseUnary()});
+      return made(Expr::Kind::Prefix, prefix, {parseUnary()}, line);
     }
     return parsePostfix();
   }
 
   Expr parsePostfix() {
     Expr expr;
+    const int begun = lineHere();
     if (is("(")) {
       want("(");
-      expr = made(Expr::Kind::Paren, "", {parseExpr()});
+      expr = made(Expr::Kind::Paren, "", {parseExpr()}, begun);
       want(")");
       if (expr.kids[0].kind == Expr::Kind::Atom) expr = Expr(expr.kids[0]);
     } else {
       if (at_ >= tokens_.size() || (!gpu::isWordLetter(tokens_[at_].text[0]) && tokens_[at_].text[0] != '.'))
         fail("an expression");
-      expr = atom(takeText());
+      expr = made(Expr::Kind::Atom, takeText(), {}, begun);
     }
     for (;; countOperator()) {
+      const int line = lineHere();
       if (is("(") && expr.kind == Expr::Kind::Atom) {
         expr.kind = Expr::Kind::Call;
         want("(");
@@ -397,13 +406,13 @@ class Parser {
         want(")");
       } else if (is("[")) {
         want("[");
-        expr = made(Expr::Kind::Index, "", {std::move(expr), parseTernary()});
+        expr = made(Expr::Kind::Index, "", {std::move(expr), parseTernary()}, line);
         want("]");
       } else if (is(".")) {
         want(".");
-        expr = made(Expr::Kind::Member, wantName(), {std::move(expr)});
+        expr = made(Expr::Kind::Member, wantName(), {std::move(expr)}, line);
       } else if (is("++") || is("--")) {
-        expr = made(Expr::Kind::Postfix, takeText(), {std::move(expr)});
+        expr = made(Expr::Kind::Postfix, takeText(), {std::move(expr)}, line);
       } else {
         return expr;
       }

@@ -1,14 +1,14 @@
 #include "lab/export/refuse_user_code.h"
 
 #include "base/error.h"
-#include "gpu/glsl_comments.h"
-#include "lab/export/preprocess_glsl.h"
+#include "gpu/glsl_words.h"
+#include "lab/export/expressions.h"
+#include "lab/export/untranslated.h"
 
 #include <algorithm>
-#include <cctype>
+#include <functional>
 #include <map>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,44 +18,23 @@ namespace gnomon::code {
 
 namespace {
 
-// A name, a number or a character of anything else but blanks.
-struct Word {
-  std::string text;
-  int line = 1;
-
-  bool isName() const { return lengthOfWord(text) > 0; }
-};
-
-std::vector<Word> wordsOf(const std::string& glsl) {
-  const std::string code = gpu::blankComments(glsl);
-  std::vector<Word> words;
-  int line = 1;
-  for (size_t i = 0; i < code.size();) {
-    const size_t length = std::max<size_t>(1, lengthOfWord(std::string_view(code).substr(i)));
-    if (std::isspace(static_cast<unsigned char>(code[i])) == 0)
-      words.push_back({.text = code.substr(i, length), .line = line});
-    line += code[i] == '\n' ? 1 : 0;
-    i += length;
-  }
-  return words;
-}
-
 // The line of the first word of which `isIt(i)`, where there is one.
 template <typename IsIt>
-std::optional<int> lineWhere(const std::vector<Word>& words, const IsIt& isIt) {
+std::optional<int> lineWhere(const std::vector<gpu::Word>& words, const IsIt& isIt) {
   for (size_t i = 0; i < words.size(); ++i)
     if (isIt(i)) return words[i].line;
   return std::nullopt;
 }
 
 // The line on which a word stands; 1 where it does not, as it does of a macro's making.
-int lineOf(const std::vector<Word>& words, const std::string& text) {
+int lineOf(const std::vector<gpu::Word>& words, const std::string& text) {
   return lineWhere(words, [&](size_t i) { return words[i].text == text; }).value_or(1);
 }
 
 // The line on which a name is declared: behind its type, where one is given; else behind any type or a comma. `count`:
 // how many times before.
-int lineOfDeclared(const std::vector<Word>& words, const std::string& type, const std::string& name, int count = 0) {
+int lineOfDeclared(const std::vector<gpu::Word>& words, const std::string& type, const std::string& name,
+                   int count = 0) {
   const auto before = [&](size_t i) { return i > 0 ? words[i - 1].text : std::string(";"); };
   const auto isBehind = [&](size_t i) { return words[i].text == name && before(i) == type; };
   if (const auto line = lineWhere(words, isBehind); line && !type.empty()) return *line;
@@ -78,7 +57,7 @@ int lineOfDeclared(const std::vector<Word>& words, const std::string& type, cons
 class Refusal {
  public:
   Refusal(const Program& program, const UserBias& user, Language language)
-      : program_(program), user_(user), language_(language), words_(wordsOf(user.source)) {}
+      : program_(program), user_(user), language_(language), words_(gpu::wordsOf(user.source)) {}
 
   // Names that are folded wherever they stand, by name and not by what they are; a second function of a name; and names
   // that are another's once they have export's prefix.
@@ -100,11 +79,13 @@ class Refusal {
       if (!isNew)
         failAt(lineOfDeclared(words_, type, decl.name),
                fmt::format("{} is exported as {}, as is {}; rename it", decl.name, at->first, at->second));
-      for (const Param& param : decl.params) checkLocal(param.type, param.name);
-      std::vector<Stmt> body = decl.body;
-      eachStmt(body, [&](const Stmt& stmt) {
-        for (const Declarator& declared : stmt.names) checkLocal(stmt.type, declared.name);
+      std::map<std::string, std::string> variables;  // as they are printed
+      for (const Param& param : decl.params) checkLocal(param.type, param.name, variables);
+      eachStmt(decl.body, [&](const Stmt& stmt) {
+        for (const Declarator& declared : stmt.names) checkLocal(stmt.type, declared.name, variables);
       });
+      for (const Stmt& member : decl.members)
+        for (const Declarator& declared : member.names) checkPrinted(member.type, declared.name, variables);
     }
   }
 
@@ -137,30 +118,18 @@ class Refusal {
   }
 
   void ofBuiltIns() {
-    eachUserExpr([&](const Expr& e) {
-      if (e.kind == Expr::Kind::Atom && e.text.starts_with("gl_"))
-        failAt(lineOf(words_, e.text),
-               fmt::format("{} is the calling shader's, which export does not know; write it without", e.text));
+    eachUserExpr([&](const Expr& e, const Variables& variables) {
+      if (e.kind != Expr::Kind::Atom || isNumber(e) || e.text == "true" || e.text == "false") return;
+      const bool isVariable = std::ranges::any_of(variables, [&](const Variable& it) { return it.name == e.text; });
+      if (isVariable || folded_.contains(e.text) || program_.find(e.text) != nullptr) return;
+      failAt(e.line, fmt::format("{} is the calling shader's, which export does not know; write it without", e.text));
     });
   }
 
-  void ofGlslEs() {
-    const auto fail = [&](const std::string& word) {
-      failAt(lineOf(words_, word),
-             fmt::format("GLSL ES 3.00 has no {}; write it without, or export --lang glsl", word));
-    };
-    eachUserType([&](const std::string& type) {
-      if (isDoubleType(type)) fail(type);
-    });
-    eachUserExpr([&](const Expr& e) {
-      if (isDouble(e)) fail(e.text);
-      const bool isMissing = isDoubleType(e.text) || missingInEs().contains(e.text);
-      if (e.kind == Expr::Kind::Call && isMissing && program_.find(e.text) == nullptr) fail(e.text);
-    });
+  void ofUntranslated() const {
+    if (const auto found = firstUntranslated(program_, language_))
+      failAt(found->line > 0 ? found->line : lineOf(words_, found->word), found->message);
   }
-
-  // What has no translation to HLSL and Metal yet, where it would be another language's words, or mean something else.
-  void ofUntranslated();
 
  private:
   [[noreturn]] void failAt(int line, const std::string& what) const {
@@ -219,30 +188,30 @@ class Refusal {
              fmt::format("'{}' is a name that export takes for its own (docs/shared_glsl.md); rename it", name));
   }
 
-  void checkLocal(const std::string& type, const std::string& name) const {
+  // `printed`: the names of one function's variables, or of a structure's members, by what they are printed as.
+  void checkPrinted(const std::string& type, const std::string& name,
+                    std::map<std::string, std::string>& printed) const {
+    const auto [at, isNew] = printed.emplace(variableNameIn(language_, name), name);
+    if (!isNew && at->second != name)
+      failAt(lineOfDeclared(words_, type, name),
+             fmt::format("{} is exported as {}, as is {}; rename one", name, at->first, at->second));
+  }
+
+  void checkLocal(const std::string& type, const std::string& name, std::map<std::string, std::string>& printed) const {
     checkName(type, name, type);
+    checkPrinted(type, name, printed);
     const bool isPrefixed = name.starts_with("gnomon") || name.starts_with("Gnomon") || name.starts_with("kGnomon");
     if (isPrefixed || (name == "textures" && language_ == Language::Msl))
       failAt(lineOfDeclared(words_, type, name),
              fmt::format("'{}' may be another's name in exported code; rename it", name));
   }
 
-  template <typename Visit>
-  void eachUserExpr(const Visit& visit) const {
-    for (Decl decl : program_.decls)
-      if (decl.file == kUserBiasFile) eachExpr(decl, visit);
+  void eachUserExpr(const std::function<void(const Expr&)>& visit) const {
+    eachUserExpr([&](const Expr& e, const Variables&) { visit(e); });
   }
-
-  // Of variables, parameters, members, and what functions return.
-  template <typename Visit>
-  void eachUserType(const Visit& visit) const {
-    for (Decl decl : program_.decls) {
-      if (decl.file != kUserBiasFile) continue;
-      if (decl.kind != Decl::Kind::Struct) visit(decl.type);
-      for (const Param& param : decl.params) visit(param.type);
-      eachStmt(decl.members, [&](const Stmt& stmt) { visit(stmt.type); });
-      eachStmt(decl.body, [&](const Stmt& stmt) { visit(stmt.type); });
-    }
+  void eachUserExpr(const std::function<void(const Expr&, const Variables&)>& visit) const {
+    for (const Decl& decl : program_.decls)
+      if (decl.file == kUserBiasFile) eachExprAndItsVariables(decl, visit);
   }
 
   static bool isKnobs(const Expr& e) { return e.kind == Expr::Kind::Member && e.text == "knobs"; }
@@ -258,94 +227,13 @@ class Refusal {
     return reads;
   }
 
-  static bool isDouble(const Expr& e) {
-    const bool isNumber = std::isdigit(static_cast<unsigned char>(e.text[0])) != 0 || e.text[0] == '.';
-    return e.kind == Expr::Kind::Atom && isNumber && (e.text.ends_with("lf") || e.text.ends_with("LF"));
-  }
-
-  static bool isDoubleType(const std::string& type) {
-    return type == "double" || type.starts_with("dvec") || type.starts_with("dmat");
-  }
-
-  static const std::set<std::string>& missingInEs();
-
   const Program& program_;
   const UserBias& user_;
   Language language_;
-  std::vector<Word> words_;                            // of the user's file
+  std::vector<gpu::Word> words_;                       // of the user's file
   std::set<std::string> folded_, roots_;               // "reach"; "tap" of "tap.z1"
   std::set<std::pair<std::string, std::string>> own_;  // types and names of Gnomon's
 };
-
-const std::set<std::string>& Refusal::missingInEs() {
-  static const std::set<std::string> names = {"bitCount",
-                                              "bitfieldExtract",
-                                              "bitfieldInsert",
-                                              "bitfieldReverse",
-                                              "dFdxCoarse",
-                                              "dFdxFine",
-                                              "dFdyCoarse",
-                                              "dFdyFine",
-                                              "findMSB",
-                                              "fma",
-                                              "frexp",
-                                              "fwidthCoarse",
-                                              "fwidthFine",
-                                              "imulExtended",
-                                              "ldexp",
-                                              "packDouble2x32",
-                                              "packSnorm4x8",
-                                              "packUnorm4x8",
-                                              "uaddCarry",
-                                              "umulExtended",
-                                              "unpackDouble2x32",
-                                              "unpackSnorm4x8",
-                                              "unpackUnorm4x8",
-                                              "usubBorrow"};
-  return names;
-}
-
-// GLSL's functions that have the same name and meaning in HLSL and Metal, or a name there that print_code.cpp knows.
-const std::set<std::string>& translatedFunctions() {
-  static const std::set<std::string> names = {
-      "abs",        "acos",  "all",         "any",       "asin",  "atan",           "ceil",    "clamp",
-      "cos",        "cross", "distance",    "dot",       "exp",   "exp2",           "findLSB", "floatBitsToUint",
-      "floor",      "fract", "inversesqrt", "isinf",     "isnan", "length",         "log",     "log2",
-      "max",        "min",   "mix",         "normalize", "pow",   "reflect",        "sign",    "sin",
-      "smoothstep", "sqrt",  "step",        "tan",       "trunc", "uintBitsToFloat"};
-  return names;
-}
-
-bool isSwizzleOf(const Expr& e, size_t count) {
-  return e.kind == Expr::Kind::Member && e.text.size() >= count &&
-         e.text.find_first_not_of("xyzw") == std::string::npos;
-}
-
-void Refusal::ofUntranslated() {
-  const auto fail = [&](const std::string& word, const std::string& what) {
-    failAt(lineOf(words_, word), fmt::format("{} is not translated to {}; write it without, or export --lang glsl",
-                                             what, language_ == Language::Hlsl ? "HLSL" : "Metal"));
-  };
-  std::set<std::string> types = {"void", "bool",  "int",   "uint",  "float", "vec2", "vec3",
-                                 "vec4", "ivec2", "ivec3", "uvec2", "uvec3", "uvec4"};
-  std::set<std::string> functions = translatedFunctions();
-  for (const Decl& decl : program_.decls) (decl.kind == Decl::Kind::Struct ? types : functions).insert(decl.name);
-  eachUserType([&](const std::string& type) {
-    if (!type.empty() && !types.contains(type)) fail(type, type);
-  });
-  eachUserExpr([&](const Expr& e) {
-    if (isDouble(e)) fail(e.text, e.text);
-    if (e.kind != Expr::Kind::Call) return;
-    if (!types.contains(e.text) && !functions.contains(e.text)) fail(e.text, e.text);
-    if (e.text == "atan" && e.kids.size() != 1) fail(e.text, "atan of two numbers");
-    const size_t count = e.text.starts_with("vec") && e.text.size() == 4 ? static_cast<size_t>(e.text[3] - '0') : 0;
-    if (count == 0 || e.kids.size() != 1) return;
-    // One number for all components, or a longer vector: they are not told apart here.
-    const Expr& only = e.kids[0];
-    const bool isNumber = only.kind == Expr::Kind::Atom && std::isdigit(static_cast<unsigned char>(only.text[0])) != 0;
-    if (!isNumber && !isSwizzleOf(only, count)) fail(e.text, fmt::format("{} of one value that is no number", e.text));
-  });
-}
 
 }  // namespace
 
@@ -355,18 +243,17 @@ void refuseUserCode(const Program& program, const UserBias& user, const Known& k
   refusal.ofNames(known, taken);
   refusal.ofKnobs();
   refusal.ofBuiltIns();
-  if (language == Language::GlslEs) refusal.ofGlslEs();
-  if (language == Language::Hlsl || language == Language::Msl) refusal.ofUntranslated();
+  refusal.ofUntranslated();
 }
 
 void refuseLeftParams(const Program& program, const UserBias& user) {
   for (const Decl& decl : program.decls)
     for (const Param& param : decl.params)
       if (decl.file == kUserBiasFile && param.type == "BiasParams")
-        throw WorldError(
-            fmt::format("{}:{}: {} uses its BiasParams for more than to read knobs; read "
-                        "{}.knobs[...] there, or pass on what it needs of them",
-                        user.path, lineOfDeclared(wordsOf(user.source), decl.type, decl.name), decl.name, param.name));
+        throw WorldError(fmt::format(
+            "{}:{}: {} uses its BiasParams for more than to read knobs; read "
+            "{}.knobs[...] there, or pass on what it needs of them",
+            user.path, lineOfDeclared(gpu::wordsOf(user.source), decl.type, decl.name), decl.name, param.name));
 }
 
 }  // namespace gnomon::code

@@ -16,11 +16,10 @@ namespace gnomon::code {
 // Throws WorldError, "mine.glsl:12: ...", where the user's file
 //   - declares a name that simplify() folds wherever it stands, whatever it is: `kind`, `reach`;
 //   - defines a function twice, since exported code has no overloads;
-//   - declares a name that is another's once it has export's prefix;
+//   - declares a name that is another's once it has export's prefix, or the "_" behind a word of the language's own;
 //   - does anything with knobs but read params.knobs[kUserWidth];
-//   - reads a variable of the calling shader: `gl_FragCoord`;
-//   - for GLSL ES 3.00: has doubles, or functions of later versions;
-//   - for HLSL and Metal: has types, functions or numbers that are not translated there, or would mean something else.
+//   - reads a variable of the calling shader: `gl_FragCoord`, `mapSlices`;
+//   - has what is not translated to the language, or would mean something else there (untranslated.h).
 void refuseUserCode(const Program& program, const UserBias& user, const Known& known, Language language,
                     const std::set<std::string>& taken);
 

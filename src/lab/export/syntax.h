@@ -24,6 +24,7 @@ struct Expr {
   Kind kind = Kind::Atom;
   std::string text;
   std::vector<Expr> kids;
+  int line = 0;  // of its file, where its operator, name or number stands; 0: made here
 
   bool isAtom(const std::string& name) const { return kind == Kind::Atom && text == name; }
   bool isAssignment() const;  // "=", "+=" and so on
@@ -92,13 +93,13 @@ void eachExpr(Expr& expr, const Visit& visit) {
   visit(expr);
   for (Expr& kid : expr.kids) eachExpr(kid, visit);
 }
-template <typename Visit>
-void eachStmt(std::vector<Stmt>& body, const Visit& visit) {
-  for (Stmt& stmt : body) {
+template <typename Stmts, typename Visit>  // std::vector<Stmt>, const or not
+void eachStmt(Stmts& body, const Visit& visit) {
+  for (auto& stmt : body) {
     visit(stmt);
     eachStmt(stmt.other, visit);
     eachStmt(stmt.body, visit);
-    for (Stmt::Case& one : stmt.cases) eachStmt(one.body, visit);
+    for (auto& one : stmt.cases) eachStmt(one.body, visit);
   }
 }
 template <typename Visit>

@@ -177,7 +177,7 @@ MergeReport mergeStores(const std::vector<fs::path>& parts, const fs::path& out)
     if (!file.isOpen() || ::fsync(file.get()) != 0)
       throw fileError(out.string(), "could not be written", "check the disk");
     // What an old store's journal holds is in it when its last reader has gone; its journal must not meet the new one.
-    if (fs::exists(out)) Store(out, sql::Open::Existing).database().execute("PRAGMA wal_checkpoint(TRUNCATE)");
+    if (isStoreThere(out)) Store(out, sql::Open::Existing).database().execute("PRAGMA wal_checkpoint(TRUNCATE)");
     std::error_code failure;
     for (const char* ending : {"-wal", "-shm"}) fs::remove(out.string() + ending, failure);
     fs::rename(aside, out);

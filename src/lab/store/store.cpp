@@ -131,6 +131,12 @@ void putCase(const sql::Database& database, const StoredCase& of, const std::opt
 
 }  // namespace
 
+bool isStoreThere(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure)) return false;
+  return !std::filesystem::is_regular_file(path) || std::filesystem::file_size(path, failure) > 0;
+}
+
 // Before this process opens the store: closing any descriptor of a file lets go its locks there, SQLite's among them.
 void checkStorePath(const std::filesystem::path& path, sql::Open how) {
   constexpr std::string_view kMagic("SQLite format 3\0", 16);

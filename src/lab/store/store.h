@@ -127,6 +127,10 @@ struct MergeReport {
   std::vector<std::string> conflicts, replaced, mixtures;
 };
 
+// Whether there is something to read at the path, which may still be no store. An empty file is a store that is yet to
+// be made, as after a kill at its start.
+bool isStoreThere(const std::filesystem::path& path);
+
 // What keeps a path from being a store, before SQLite opens it: a folder, a device, an empty file where there must be
 // rows, a file of another kind. Throws WorldError.
 void checkStorePath(const std::filesystem::path& path, sql::Open how);

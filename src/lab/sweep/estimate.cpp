@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <set>
+#include <utility>
 
 namespace gnomon {
 
@@ -42,6 +44,13 @@ double stageSeconds(const StageClock& clock, const char* stage) {
   for (const auto& [name, seconds] : clock.stages())
     if (name == stage) return seconds;
   return 0.0;
+}
+
+// Of this process, up to now.
+double peakBytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
 struct MissingView {
@@ -109,7 +118,7 @@ bool mayHaveCompiled(const TriedCase& one, const std::vector<TriedCase>& before)
 }
 
 SweepEstimate estimateSweep(const Plan& plan, const Axes& axes, Store* store, const SweepOptions& options) {
-  const std::shared_ptr<const gpu::Device> device = gpu::Device::create(options.device);
+  std::shared_ptr<const gpu::Device> device = gpu::Device::create(options.device);
   const Machine machine = machineOf(*device, options);
   StageClock clock, unused;
   const Clock::time_point begun = Clock::now();
@@ -137,13 +146,13 @@ SweepEstimate estimateSweep(const Plan& plan, const Axes& axes, Store* store, co
     for (const WantedCase& one : missing.cases) missingCases.push_back(shapeOf(one, axes));
     views.push_back({view, std::move(missing)});
   }
-  SweepMeasurer measurer(plan, axes, survey, device, clock);
+  auto measurer = std::make_unique<SweepMeasurer>(plan, axes, survey, std::move(device), clock);
   std::vector<TriedCase> tried;
   std::set<size_t> scenes;
   std::set<std::pair<size_t, size_t>> cameras;
   const auto enter = [&](const SweepView& view) {
     throwIfInterrupted();
-    measurer.enter(view);
+    measurer->enter(view);
     scenes.insert(view.scene);
     cameras.insert({view.scene, view.camera});
   };
@@ -154,13 +163,28 @@ SweepEstimate estimateSweep(const Plan& plan, const Axes& axes, Store* store, co
     const auto secondsOf = [&] {
       throwIfInterrupted();
       const Clock::time_point start = Clock::now();
-      measurer.measure(wanted, {});
+      measurer->measure(wanted, {});
       return secondsSince(start);
     };
     TriedCase added{.shape = shapeOf(wanted, axes), .seconds = secondsOf()};
     if (mayHaveCompiled(added, tried)) added.seconds = std::min(added.seconds, secondsOf());
     tried.push_back(added);
   }
+  double mediaSeconds = 0.0;
+  size_t media = 0;
+  for (const MissingView& one : views) {
+    if (one.missing.media.empty()) continue;
+    enter(one.view);
+    const Clock::time_point start = Clock::now();
+    measurer->measureMedia(one.missing.media.front());
+    mediaSeconds = secondsSince(start);
+    media = 1;
+    break;
+  }
+  // A sweep has one device and one measurer: its memory is told before there is a second of each, which is made when
+  // the first is gone.
+  estimate.peakBytes = peakBytes();
+  measurer.reset();
   SweepMeasurer afresh(plan, axes, survey, gpu::Device::create(options.device), unused);
   std::set<std::string> triedMaps;
   for (size_t i = 0; i < tries.size(); ++i) {
@@ -171,25 +195,11 @@ SweepEstimate estimateSweep(const Plan& plan, const Axes& axes, Store* store, co
     afresh.measure(views[tries[i].view].missing.cases[tries[i].at], {});
     tried[i].once = std::max(secondsSince(start) - tried[i].seconds, 0.0);
   }
-  double mediaSeconds = 0.0;
-  size_t media = 0;
-  for (const MissingView& one : views) {
-    if (one.missing.media.empty()) continue;
-    enter(one.view);
-    const Clock::time_point start = Clock::now();
-    measurer.measureMedia(one.missing.media.front());
-    mediaSeconds = secondsSince(start);
-    media = 1;
-    break;
-  }
   estimate.tried = tried.size() + media;
   estimate.seconds +=
       each(stageSeconds(clock, "scene"), scenes.size()) * static_cast<double>(missingScenes.size()) +
       each(stageSeconds(clock, "G-buffer"), cameras.size()) * static_cast<double>(missingCameras.size()) +
       extrapolatedSeconds(tried, missingCases) + mediaSeconds * static_cast<double>(missingMedia);
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  estimate.peakBytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
   return estimate;
 }
 

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/message.h"
 #include "base/parse.h"
+#include "lab/sweep/sweep.h"
 
 #include <sys/wait.h>
 
@@ -83,7 +84,7 @@ std::filesystem::path SlurmRun::part(int shard) const {
 }
 
 std::string shardNote(const std::string& planHash, int shard, int shards) {
-  return fmt::format("shard {}/{} of {}", shard, shards, planHash);
+  return fmt::format("shard {}/{} of {}, divided {}", shard, shards, planHash, kShardDivision);
 }
 
 std::vector<int> missingShards(const SlurmRun& run) {
@@ -103,7 +104,7 @@ std::vector<int> missingShards(const SlurmRun& run) {
 SlurmJobs submitToSlurm(const SlurmRun& run) {
   const fs::path store = fs::absolute(run.store);
   checkOutput(store);
-  if (fs::exists(store)) Store(store, sql::Open::ReadOnly);  // that it can be merged with
+  if (isStoreThere(store)) Store(store, sql::Open::ReadOnly);  // that it can be merged with
   const fs::path folder = fs::absolute(run.folder());
   Preparations preparations(folder);
   std::error_code failure;

@@ -11,6 +11,10 @@
 
 namespace gnomon {
 
+// How isInShard() divides the views; another word when it divides them otherwise, since a part that was done as another
+// division has it is not done as this one has it.
+inline constexpr const char* kShardDivision = "in turns";
+
 struct SweepOptions {
   gpu::DeviceOptions device;
   std::string program;        // what the program says it is, in rows

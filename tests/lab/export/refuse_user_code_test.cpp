@@ -1,5 +1,7 @@
 // What export reads of the file of a user's bias, and that it tells by line what it refuses.
 #include "base/error.h"
+#include "lab/export/expressions.h"
+#include "lab/export/visibility_source.h"
 #include "shadow/user_bias.h"
 #include "tests/lab/export/what_to_export.h"
 
@@ -121,9 +123,12 @@ TEST(ExportOfUserCode, NamesThatAreFoldedAreRefused) {
 TEST(ExportOfUserCode, WhatIsNotTranslatedIsToldByItsLine) {
   for (const auto& [code, word] :
        {std::pair{"mat3 m = mat3(1.0f);", "mat3"}, std::pair{"float a = mod(tap.z1, 1.0f);", "mod"},
-        std::pair{"bvec2 b = bvec2(true);", "bvec2"}, std::pair{"vec2 f = vec2(tap.z1);", "vec2 of one value"},
-        std::pair{"double d = 1.0;", "double"}, std::pair{"float t = atan(tap.z1, 2.0f);", "atan of two"},
-        std::pair{"float d = float(1.0lf);", "1.0lf"}}) {
+        std::pair{"bvec2 b = bvec2(true);", "bvec2"},
+        std::pair{"vec2 f = vec2(tap.z1);", "write vec2(tap.z1, tap.z1), or"}, std::pair{"double d = 1.0;", "double"},
+        std::pair{"float t = atan(tap.z1, 2.0f);", "atan of two"}, std::pair{"float d = float(1.0lf);", "1.0lf"},
+        std::pair{"vec3 v = vec3(receiver.normalL);", "write receiver.normalL.xyz, or"},
+        std::pair{"vec2 v = vec2(tap.texel.xy);", "vec2(tap.texel.xy) of whole numbers"},
+        std::pair{"vec2 v = vec2(tap.z1 * 2.0f);", "write vec2(x, x), or"}}) {
     const std::string file = fmt::format("{} {{\n  {}\n  return true; }}\n", kUserHead, code);
     for (const Language language : {Language::Hlsl, Language::Msl}) {
       const std::string said = refusal(file, language);
@@ -136,6 +141,106 @@ TEST(ExportOfUserCode, WhatIsNotTranslatedIsToldByItsLine) {
   const std::string fine =
       std::string(kUserHead) + " { vec3 v = vec3(0.5f); vec2 f = vec2(v.xy); return f.x > tap.z1; }\n";
   for (const Language language : {Language::Hlsl, Language::Msl}) EXPECT_EQ(refusal(fine, language), "");
+}
+
+// Which are true or false in GLSL, and vectors of such in HLSL and Metal.
+TEST(ExportOfUserCode, ComparisonsOfVectorsAreToldByTheirLine) {
+  const std::string declared =
+      "struct Mine { vec2 v; float f[2]; };\nvec3 up() { return vec3(0.0f, 1.0f, 0.0f); }\n"
+      "Mine made() { Mine mine; mine.v = vec2(1.0f, 2.0f); mine.f[0] = mine.f[1] = 1.0f; return mine; }\n"
+      "#define AT receiver.posL\n";
+  const auto file = [&](const char* comparison) {
+    return fmt::format(
+        "{}{} {{\n  vec3 local = up(), other; float number = 1.0f; Mine mine = made();\n  bool first = number == "
+        "1.0f;\n"
+        "  {{ float local = 2.0f; first = local == number; }}\n  bool same = {};\n  return first && same; }}\n",
+        declared, kUserHead, comparison);
+  };
+  for (const char* comparison :
+       {"receiver.normalL == vec3(0.0f, 0.0f, 1.0f)", "local != other", "number == 1.0f && local == other",
+        "tap.texel == ivec2(1, 2)", "mine.v == mine.v.yx", "made().v != mine.v", "up() == other", "AT == up()",
+        "local.xy == mine.v", "local * 2.0f == other", "2.0f * local == -other", "(local) == other",
+        "normalize(local) == other", "(number > 1.0f ? local : other) == other", "mine == made()", "mine.f == mine.f"})
+    for (const Language language : {Language::Hlsl, Language::Msl}) {
+      const std::string said = refusal(file(comparison), language);
+      EXPECT_TRUE(said.starts_with("mine.glsl:9: ")) << comparison << ": " << said;
+      EXPECT_TRUE(mentions(said, "; compare them number by number, or export --lang glsl")) << said;
+      EXPECT_EQ(refusal(file(comparison)), "") << comparison;
+    }
+  for (const char* comparison :
+       {"local.x == other.y", "mine.f[1] == 1.0f", "local[0] != other[1]", "dot(local, other) == 1.0f",
+        "length(local) == number", "tap.texel.x == 3", "up().x == number", "(local.x > 1.0f) == (other.x > 1.0f)"})
+    for (const Language language : {Language::Hlsl, Language::Msl})
+      EXPECT_EQ(refusal(file(comparison), language), "") << comparison;
+}
+
+TEST(ExportOfUserCode, WhatHlslAlwaysEvaluatesIsToldByItsLine) {
+  const auto file = [](const char* condition) {
+    return fmt::format(
+        "float put(float a, out float b) {{ b = a; return a; }}\nfloat plain(float a) {{ a += 1.0f; return a; }}\n{} "
+        "{{\n"
+        "  float a = 1.0f, b = 2.0f; int i = 0; bool first = a > 0.5f && b > 1.0f;\n  bool lit = {};\n"
+        "  return first && lit; }}\n",
+        kUserHead, condition);
+  };
+  for (const char* condition :
+       {"a > 1.0f && (b = 1.0f) > 0.5f", "a > 1.0f || (b += a) > 0.5f", "a > 1.0f && i++ > 0", "a > 1.0f || --i > 0",
+        "a > 1.0f && put(a, b) > 1.0f", "a > 1.0f ? put(a, b) > 1.0f : first", "a > 1.0f ? first : !(i++ > 0)"}) {
+    const std::string said = refusal(file(condition), Language::Hlsl);
+    EXPECT_TRUE(said.starts_with("mine.glsl:5: ")) << condition << ": " << said;
+    EXPECT_TRUE(mentions(said, "write it with if, or export --lang glsl")) << said;
+    EXPECT_EQ(refusal(file(condition), Language::Msl), "") << condition;
+    EXPECT_EQ(refusal(file(condition)), "") << condition;
+  }
+  for (const char* condition : {"(b = 1.0f) > 0.5f && a > 1.0f", "put(a, b) > 1.0f || first",
+                                "a > 1.0f && plain(a) > 1.0f", "(i++ > 0 ? a : b) > 1.0f"})
+    EXPECT_EQ(refusal(file(condition), Language::Hlsl), "") << condition;
+}
+
+TEST(ExportOfUserCode, HlslSpreadsNoNumberAndMultipliesNoMatrix) {
+  const auto file = [](const char* line) {
+    return fmt::format("{} {{ int i = tap.slice;\n  {}\n  return true; }}\n", kUserHead, line);
+  };
+  for (const auto& [line, remedy] :
+       {std::pair{"ivec2 a = ivec2(i);", "write ivec2(i, i), or"},
+        std::pair{"vec4 a = GNOMON_MEMBER_ARRAY(map, mapSlices)[i].clipFromLight * vec4(receiver.posL, 1.0f);",
+                  "write transform(m, v), or"},
+        std::pair{"MapSlice s = GNOMON_MEMBER_ARRAY(map, mapSlices)[i]; vec4 a = s.clipFromLight[0] * s.lightFromClip;",
+                  "write transform(m, v), or"}}) {
+    const std::string said = refusal(file(line), Language::Hlsl);
+    EXPECT_TRUE(said.starts_with("mine.glsl:2: ") && mentions(said, remedy)) << line << ": " << said;
+    EXPECT_EQ(refusal(file(line), Language::Msl), "") << line;
+  }
+  const auto user =
+      readUserBias("mine.glsl", fmt::format("{} {{ vec3 a = vec3(0.5f), b = vec3(-.5f); uvec2 c = uvec2(3u);"
+                                            " return a.x + b.x + float(c.x) > tap.z1; }}\n",
+                                            kUserHead));
+  const auto exported = [&](Language language) {
+    return exportShader(choiceOf(kinds()[1], user->method, filters()[0], language)).text;
+  };
+  EXPECT_TRUE(mentions(exported(Language::Hlsl), "float3(0.5f, 0.5f, 0.5f), b = float3(-.5f, -.5f, -.5f)"));
+  EXPECT_TRUE(mentions(exported(Language::Hlsl), "uint2(3u, 3u)"));
+  EXPECT_TRUE(mentions(exported(Language::Msl), "float3(0.5f), b = float3(-.5f)"));
+}
+
+// What is exported beside the user's code keeps to the same.
+TEST(ExportOfUserCode, GnomonsOwnCodeHasNothingOfThis) {
+  const code::Program& program = code::readVisibility({});
+  size_t comparisons = 0, conditions = 0;
+  for (const code::Decl& decl : program.decls)
+    code::eachExprAndItsVariables(decl, [&](const code::Expr& e, const code::Variables& variables) {
+      if (e.text == "==" || e.text == "!=") {
+        ++comparisons;
+        for (const code::Expr& kid : e.kids)
+          EXPECT_FALSE(code::isVector(code::typeOf(kid, variables, program))) << decl.file << ":" << e.line;
+      }
+      if (e.text != "&&" && e.text != "||" && e.kind != code::Expr::Kind::Ternary) return;
+      ++conditions;
+      for (size_t i = 1; i < e.kids.size(); ++i)
+        EXPECT_FALSE(code::writesVariable(e.kids[i], program)) << decl.file << ":" << e.line;
+    });
+  EXPECT_GT(comparisons, 50u);
+  EXPECT_GT(conditions, 50u);
 }
 
 TEST(ExportOfUserCode, KnobsAreReadByTheirConstants) {
@@ -169,6 +274,22 @@ TEST(ExportOfUserCode, NamesThatCollideOnceTheyHaveAPrefixAreRefused) {
   }
 }
 
+TEST(ExportOfUserCode, NamesThatCollideOnceTheyHaveAnUnderscoreAreRefused) {
+  const std::string body = std::string(kUserHead) + " { return tap.z1 > 0.5f; }\n";
+  for (const auto& [code, language] :
+       {std::pair{"float f(float frac_) {\n  float frac = 1.0f;\n  return frac + frac_; }\n", Language::Hlsl},
+        std::pair{"float f(float device_) {\n  float device = 1.0f;\n  return device + device_; }\n", Language::Msl},
+        std::pair{"struct Mine { float float3_;\n  float float3; };\n", Language::Hlsl}}) {
+    const std::string said = refusal(code + body, language);
+    EXPECT_TRUE(said.starts_with("mine.glsl:2: ") && mentions(said, "_, as is ")) << said;
+    EXPECT_EQ(refusal(code + body), "");
+  }
+  // In two functions they do not meet.
+  EXPECT_EQ(
+      refusal("float f(float frac) { return frac; }\nfloat g(float frac_) { return frac_; }\n" + body, Language::Hlsl),
+      "");
+}
+
 TEST(ExportOfUserCode, ANameIsToldWhereItIsDeclared) {
   for (const char* declared : {"float tap = 0.5f;", "float a = max(1.0f, 2.0f), tap = a;"}) {
     const std::string said = refusal(
@@ -197,6 +318,9 @@ TEST(ExportOfUserCode, VariablesOfTheCallingShaderAreRefused) {
         refusal(fmt::format("{} {{\n  uint i = gl_GlobalInvocationID.x;\n  return true; }}\n", kUserHead), language);
     EXPECT_TRUE(said.starts_with("mine.glsl:2: gl_GlobalInvocationID is ")) << said;
   }
+  const std::string said =
+      refusal(fmt::format("{} {{\n  return mapSlices[tap.slice].clipFromLight[0].x > tap.z1; }}\n", kUserHead));
+  EXPECT_TRUE(said.starts_with("mine.glsl:2: mapSlices is ")) << said;
 }
 
 TEST(ExportOfUserCode, WhatGlslEsDoesNotHaveIsToldByItsLine) {

@@ -1,0 +1,39 @@
+#pragma once
+// What an expression of a shader is: its type, and whether it writes to a variable.
+
+#include "lab/export/syntax.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon::code {
+
+struct Variable {
+  std::string name;
+  std::string type;  // of an array with "[]" behind it
+};
+// Those that are seen from a place; of several with one name the last counts.
+using Variables = std::vector<Variable>;
+
+// "float", "vec3", "mat4", "Receiver", "float[]"; empty where it is not known. A built-in function's is that of its
+// arguments' largest: vec3 of isnan(vec3), where GLSL has bvec3.
+std::string typeOf(const Expr& expr, const Variables& variables, const Program& program);
+
+bool isScalar(const std::string& type);
+bool isVector(const std::string& type);  // "uvec2"
+bool isMatrix(const std::string& type);  // "mat4", "mat2x3"
+// Of a vector's type; 0 of any other.
+int componentCount(const std::string& type);
+
+// A number as it is written: "0.5f", "-1".
+bool isNumber(const Expr& expr);
+
+// Whether it assigns, counts up or down, or calls a function that writes to an argument.
+bool writesVariable(const Expr& expr, const Program& program);
+
+// Calls `visit` for each expression of a declaration, those within others after what they are in, with the variables
+// that are seen from it.
+void eachExprAndItsVariables(const Decl& decl, const std::function<void(const Expr&, const Variables&)>& visit);
+
+}  // namespace gnomon::code
