@@ -56,6 +56,19 @@ Control numberControl(Control control, const Place<double>& place) {
   return control;
 }
 
+Control optionalControl(Control control, const Place<std::optional<double>>& place) {
+  control.kind = Kind::Number;
+  control.get = [place](const ViewState& state) {
+    const std::optional<double>& value = at(place, state);
+    return value ? fmt::format("{}", *value) : std::string();
+  };
+  control.set = [place, name = control.name, lower = control.lower, upper = control.upper, unit = control.unit](
+                    ViewState& state, const std::string& text) {
+    place(state) = text.empty() ? std::nullopt : std::optional(numberIn(name, text, lower, upper, unit));
+  };
+  return control;
+}
+
 Control toggleControl(Control control, const Place<bool>& place) {
   control.kind = Kind::Toggle;
   control.get = [place](const ViewState& state) { return onOff(at(place, state)); };

@@ -4,6 +4,7 @@
 #include "view/view_controls.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ template <typename T>
 using Place = std::function<T&(ViewState&)>;
 
 Control numberControl(Control control, const Place<double>& place);
+// Empty where it has no value.
+Control optionalControl(Control control, const Place<std::optional<double>>& place);
 Control toggleControl(Control control, const Place<bool>& place);
 Control textControl(Control control, const Place<std::string>& place);
 

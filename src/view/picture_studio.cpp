@@ -415,9 +415,9 @@ const FogView& PictureStudio::fogFor(const Sheet& sheet) {
   const std::string density = fmt::format("{}\n{}\n{}\n{}", fog.density, place, fog.densityScale, fog.densityTurn);
   const SetupOptions& setup = state.setup;
   picture.light = chooseLight(setup, traced_->tracer, volumeParameterization());
-  const std::string key =
-      fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", density, fog.sigmaS, fog.sigmaA, fog.g, fog.ambient,
-                  setup.light, setup.direction, setup.coneDegrees.value_or(0.0), setup.intensity.value_or(0.0));
+  const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", density, fog.sigmaS.value_or(-1.0),
+                                      fog.sigmaA, fog.g, fog.ambient, setup.light, setup.direction,
+                                      setup.coneDegrees.value_or(0.0), setup.intensity.value_or(0.0));
   if (canvas.fog && canvas.fogKey == key) return *canvas.fog;
   canvas.fog.reset();
   FogState homogeneous = fog;

@@ -72,6 +72,10 @@ std::string metres(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g} m", value) : std::string("nothing");
 }
 
+std::string shortMetres(double value) {
+  return value < 1.0 ? fmt::format("{:.3g} mm", 1e3 * value) : fmt::format("{:.4g} m", value);
+}
+
 std::string walksText(const glsl::PixelDiagnosis& pixel) {
   constexpr std::array kEnds = {
       "the receiver", "a surface that shadows it", "a surface behind it", "a hole", "an open edge", "a fold"};
@@ -108,7 +112,7 @@ void addTexelFacts(std::vector<std::string>& facts, const ViewPicture& picture, 
       held += fmt::format(", then {}", metres(static_cast<double>(depthAt(*side.depths->second, fitted, place))));
     if (std::isfinite(first))
       held +=
-          fmt::format("; the pixel is {:.3g} mm {}", 1e3 * std::abs(own - first), own > first ? "behind" : "before");
+          fmt::format("; the pixel is {} {}", shortMetres(std::abs(own - first)), own > first ? "behind" : "before");
     facts.push_back(held);
   }
   if (index < side.held.size() && side.held[index].instancePlusOne != 0)

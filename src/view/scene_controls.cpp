@@ -144,41 +144,28 @@ void addLight(std::vector<Control>& controls, const std::shared_ptr<const Traced
     state.setup.direction = text;
   };
   controls.push_back(direction);
-  const auto addOptional = [&](Control control, std::optional<double> SetupOptions::*member) {
-    control.kind = Kind::Number;
-    control.get = [member](const ViewState& state) {
-      const auto& value = state.setup.*member;
-      return value ? fmt::format("{}", *value) : std::string();
-    };
-    control.set = [member, control](ViewState& state, const std::string& text) {
-      if (text.empty())
-        state.setup.*member = std::nullopt;
-      else
-        state.setup.*member = numberIn(control.name, text, control.lower, control.upper, control.unit);
-    };
-    controls.push_back(control);
-  };
-  addOptional({.name = "cone",
-               .label = "cone",
-               .group = "Light",
-               .sentence = "full angle of a spot's cone; empty: the light's own, else 120",
-               .unit = "degrees",
-               .lower = 1.0,
-               .upper = 180.0,
-               .slideLower = 1.0,
-               .slideUpper = 180.0},
-              &SetupOptions::coneDegrees);
-  addOptional({.name = "intensity",
-               .label = "intensity",
-               .group = "Light",
-               .sentence = "candela, or lux of a directional light; empty: the light's own",
-               .unit = "cd",
-               .lower = 1e-12,
-               .upper = 1e12,
-               .slideLower = 0.01,
-               .slideUpper = 1e5,
-               .logarithmic = true},
-              &SetupOptions::intensity);
+  controls.push_back(
+      optionalControl({.name = "cone",
+                       .label = "cone",
+                       .group = "Light",
+                       .sentence = "full angle of a spot's cone; empty: the light's own, else 120",
+                       .unit = "degrees",
+                       .lower = 1.0,
+                       .upper = 180.0,
+                       .slideLower = 1.0,
+                       .slideUpper = 180.0},
+                      [](ViewState& state) -> std::optional<double>& { return state.setup.coneDegrees; }));
+  controls.push_back(optionalControl({.name = "intensity",
+                                      .label = "intensity",
+                                      .group = "Light",
+                                      .sentence = "candela, or lux of a directional light; empty: the light's own",
+                                      .unit = "cd",
+                                      .lower = 1e-12,
+                                      .upper = 1e12,
+                                      .slideLower = 0.01,
+                                      .slideUpper = 1e5,
+                                      .logarithmic = true},
+                                     [](ViewState& state) -> std::optional<double>& { return state.setup.intensity; }));
 }
 
 void addCamera(std::vector<Control>& controls, const std::shared_ptr<const TracedScene>& traced) {

@@ -64,15 +64,18 @@ void addFog(std::vector<Control>& controls, float sceneScale) {
                                     .sentence = "light shafts in a medium, by each side's integrator (F)"},
                                    [](ViewState& state) -> bool& { return state.fog.on; }));
   const double usual = kDefaultOpticalDepth / std::max(static_cast<double>(sceneScale), 1e-6);
-  add({.name = "fog.sigma-s",
+  controls.push_back(optionalControl(
+      {.name = "fog.sigma-s",
        .label = "scattering",
        .group = "Fog",
-       .sentence = "scattering coefficient, at density 1; 0: an optical depth of one half across the scene's diagonal",
+       .sentence =
+           "scattering coefficient, at density 1; empty: an optical depth of one half across the scene's diagonal",
        .unit = "1/m",
        .upper = 1e6,
        .slideUpper = 20.0 * usual,
        .logarithmic = true},
-      &FogState::sigmaS);
+      [](ViewState& state) -> std::optional<double>& { return state.fog.sigmaS; }));
+  controls.back().applies = isFog;
   add({.name = "fog.sigma-a",
        .label = "absorption",
        .group = "Fog",

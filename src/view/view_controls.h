@@ -53,7 +53,8 @@ void placeCamera(ViewState& state, const TracedScene& traced, const glm::dvec3& 
 
 // All that is saved, as one JSON document; and such a document as a state. `others`: a state whose bias files may be
 // kept. Throws WorldError that names `path` where the text is none, UsageError where a value is refused.
-std::string sessionJson(const ViewState& state);
+// `path`: where it goes, since files are named from its folder; empty: nowhere.
+std::string sessionJson(const ViewState& state, const std::string& path = "");
 ViewState readSession(const std::string& path, const std::string& text, const ViewState& others);
 // Of sessionJson() a while ago: the parameters that a bias's file has lost since are left out. `what`: "undo".
 ViewState readPastState(const std::string& what, const std::string& text, const ViewState& others);

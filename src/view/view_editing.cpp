@@ -25,6 +25,7 @@ void ViewWindow::say(const std::string& line, bool isProblem) {
 void ViewWindow::noteChange(bool goesOn) {
   changed_ = true;
   goesOn_ = goesOn;
+  if (!messageIsProblem_) message_.clear();  // it was about what was done before
   lastChange_ = ViewClock::now();
 }
 
@@ -109,12 +110,18 @@ void ViewWindow::openDropped() {
 }
 
 void ViewWindow::saveSession(const std::string& path) {
-  writeTextFile(path, sessionJson(state_));
+  writeTextFile(path, sessionJson(state_, path));
   say("saved " + path, false);
+}
+
+std::string ViewWindow::freeName(const std::string& stem) {
+  for (int i = 1;; ++i)
+    if (std::string name = fmt::format("{}-{:04}.png", stem, i); !std::filesystem::exists(name)) return name;
 }
 
 void ViewWindow::writePictureFile(const std::string& path, int side) {
   if (side == 1 && !state_.split) throw UsageError("B is not shown; turn the split on (`set split on`, or Tab)");
+  if (!pictureProblem_.empty()) throw WorldError("there is no picture of this: " + pictureProblem_);
   if (!picture_ || picture_->sides[static_cast<size_t>(side)].image.values.empty())
     throw WorldError("there is no picture yet; let `wait-refined` come first");
   writePng(path, picture_->sides[static_cast<size_t>(side)].image);
@@ -152,7 +159,7 @@ void ViewWindow::copyCommand(bool ofComparison) {
 
 std::string ViewWindow::rescueSession() const {
   const std::string path = options_.session.empty() ? "gnomon-view.json" : options_.session;
-  writeTextFile(path, sessionJson(state_));
+  writeTextFile(path, sessionJson(state_, path));
   return path;
 }
 

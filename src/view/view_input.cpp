@@ -303,7 +303,7 @@ void ViewWindow::handleKeys(const KeyTap& tap) {
       if (tap.shift)
         keepFrame_ = redrawKept_ = true;  // this very frame, without the message
       else
-        writePictureFile(fmt::format("gnomon-view-{:04}.png", presentedPictures_), 0);
+        writePictureFile(freeName("gnomon-view"), 0);
     }
     if (pressed(GLFW_KEY_T) && !script_)
       script_ = std::make_unique<ScriptPlayer>(*this, "turntable",

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/parse.h"
+#include "lab/fog/fog_pictures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,9 +88,11 @@ std::vector<std::string> statusLines(const std::vector<std::string>& commands, f
 
 }  // namespace
 
-// A slider, dragged or typed into.
+// A slider, dragged or typed into. What is typed is set by Enter, or when something else is clicked, and by Escape not
+// at all.
 void ViewWindow::drawNumber(const Control& control) {
   const std::string text = control.get(state_);
+  std::string now = text;
   const std::optional<double> given = parseNumber(text);
   auto value = static_cast<float>(given.value_or(control.slideLower));
   const auto lower = static_cast<float>(control.slideLower), upper = static_cast<float>(control.slideUpper);
@@ -99,17 +102,29 @@ void ViewWindow::drawNumber(const Control& control) {
     int whole = static_cast<int>(std::lround(value));
     edited = ImGui::SliderInt(id.c_str(), &whole, static_cast<int>(lower), static_cast<int>(upper), "%d",
                               control.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-    value = static_cast<float>(whole);
+    now = fmt::format("{}", whole);
   } else {
     const std::string format = given ? std::string("%.4g") : std::string("(its own)");
     edited = ImGui::SliderFloat(id.c_str(), &value, lower, upper, format.c_str(),
                                 control.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    now = fmt::format("{}", value);
+  }
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool wasTyped = typed_.control == control.name && typed_.frame + 1 == framesDrawn_;
+  if (ImGui::IsItemActive() && io.WantTextInput) {
+    if (edited || wasTyped) typed_ = {.control = control.name, .value = edited ? now : text, .frame = framesDrawn_};
+    return;
+  }
+  if (!edited && wasTyped &&
+      !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {  // another took the focus before this one was drawn
+    now = typed_.value;
+    edited = true;
   }
   if (!edited) return;
   inputTime_ = lastFrame_;
   guarded([&] {
-    control.set(state_, fmt::format("{}", value));
-    noteChange(ImGui::IsMouseDown(0));
+    control.set(state_, now);
+    noteChange(ImGui::IsMouseDown(0) && !wasTyped);
   });
 }
 
@@ -195,9 +210,18 @@ void ViewWindow::drawControls() {
   ImGui::PopItemWidth();
 }
 
+// A side whose picture fog does not have.
+void ViewWindow::drawFogNotes() {
+  const std::vector<std::string> known = fogPicturesToShow();
+  for (size_t side = 0; side < (state_.split ? 2u : 1u); ++side)
+    if (const std::string& show = state_.sides[side].show; std::ranges::find(known, show) == known.end())
+      ImGui::TextColored(kQuiet, "%c: fog has no %s; beauty is shown", "AB"[side], show.c_str());
+}
+
 void ViewWindow::drawCounts() {
-  if (!picture_ || state_.fog.on) return;
+  if (!picture_ || !pictureProblem_.empty()) return;
   ImGui::Separator();
+  if (state_.fog.on) return drawFogNotes();
   for (size_t side = 0; side < (state_.split ? 2u : 1u); ++side) {
     const SidePicture& drawn = picture_->sides[side];
     if (drawn.bias == nullptr) continue;
@@ -274,9 +298,8 @@ void ViewWindow::drawStatus() {
 void ViewWindow::drawMessages() {
   // What is wrong stays as long as it is.
   if (ViewClock::now() - messageTime_ > kMessage) message_.clear();
-  const std::string& text = message_.empty() ? pictureProblem_ : message_;
-  const bool isProblem = message_.empty() || messageIsProblem_;
-  if (text.empty()) return;
+  const std::string said = message_ == pictureProblem_ ? "" : message_;
+  if (said.empty() && pictureProblem_.empty()) return;
   ImGui::SetNextWindowPos(ImVec2(static_cast<float>(canvas_.x) + 8.0f, static_cast<float>(canvas_.y) + 8.0f));
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f),
@@ -285,10 +308,9 @@ void ViewWindow::drawMessages() {
       "message", nullptr,
       kFixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoInputs);
   ImGui::PushTextWrapPos(std::max(static_cast<float>(canvas_.width) - 32.0f, 48.0f));
-  if (isProblem)
-    ImGui::TextColored(kProblem, "%s", text.c_str());
-  else
-    ImGui::TextUnformatted(text.c_str());
+  if (!pictureProblem_.empty()) ImGui::TextColored(kProblem, "%s", pictureProblem_.c_str());
+  if (!said.empty() && messageIsProblem_) ImGui::TextColored(kProblem, "%s", said.c_str());
+  if (!said.empty() && !messageIsProblem_) ImGui::TextUnformatted(said.c_str());
   ImGui::PopTextWrapPos();
   ImGui::End();
 }

@@ -128,7 +128,7 @@ void ScriptPlayer::pressKey(const std::string& text, int frames) {
     return wait([frames]() mutable { return frames-- > 0; });
   }
   const int key = keyNamed(name);
-  if (key < 0) throw WorldError(fmt::format("{}: no such key; write a letter, a digit, tab, f1, left, ...", text));
+  if (key < 0) throw WorldError(fmt::format("{}: no such key; write one as q, 7, tab, f1 or left", text));
   input.keys = {key};
   window_.input_.push_back(KeyTap{key, input.ctrl, input.shift});
   wait([this, frames]() mutable {
@@ -252,9 +252,7 @@ void ScriptPlayer::turntable(const ScriptLine& line) {
     ViewWindow& w = window_;
     w.scriptWaits_ = !isRefined();
     if (w.scriptWaits_) return true;
-    if (!w.pictureProblem_.empty() && window_.options_.script.empty()) return false;
-    if (at > 0 || w.pictureProblem_.empty())
-      writePng(folder / "frames" / fmt::format("{:04}.png", at), w.picture_->sides[0].image);
+    w.writePictureFile((folder / "frames" / fmt::format("{:04}.png", at)).string(), 0);
     if (++at < frames) {
       w.state_ = before;
       if (isLight)

@@ -5,6 +5,7 @@
 #include "view/view_controls.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,18 +13,32 @@
 
 namespace gnomon {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 constexpr int kSessionVersion = 1;
 
+// A scene's, a bias's or a density's, and not the name of one that is built in.
+bool isFile(const std::string& value) {
+  for (const char* extension : {".gltf", ".glb", ".glsl", ".vdb"})
+    if (value.ends_with(extension)) return true;
+  return value.find(".vdb:") != std::string::npos;
+}
+
 }  // namespace
 
-std::string sessionJson(const ViewState& state) {
+std::string sessionJson(const ViewState& state, const std::string& path) {
   const std::vector<Control> controls = viewControls(nullptr, state);
+  const fs::path folder = fs::path(path).parent_path();
   nlohmann::ordered_json json;
   json["gnomon_view"] = kSessionVersion;
   for (const Control& control : controls) {
-    if (!control.derived && control.isGiven(state)) json[control.name] = control.get(state);
+    if (control.derived || !control.isGiven(state)) continue;
+    std::string value = control.get(state);
+    if (!folder.empty() && isFile(value) && fs::path(value).is_relative())
+      value = fs::proximate(value, folder).string();
+    json[control.name] = value;
   }
   return json.dump(2) + "\n";
 }
@@ -60,8 +75,11 @@ ViewState stateOf(const std::string& path, const std::string& text, const ViewSt
     const Control& control = findControl(controls, name);
     if (control.derived)
       throw WorldError(fmt::format("{}: {} follows from another member, which stands for it", path, name));
+    auto wanted = value.get<std::string>();
+    if (!isPast && isFile(wanted) && fs::path(wanted).is_relative())
+      wanted = fs::proximate(fs::path(path).parent_path() / wanted).string();
     try {
-      control.set(state, value.get<std::string>());
+      control.set(state, wanted);
     } catch (const UsageError&) {
       if (!isPast || !isFileKnob(name)) throw;  // out of its bounds by now
     }

@@ -36,7 +36,7 @@ std::string fogCommand(const ViewState& state, int side, const SetupOptions& set
     word(fmt::format("{}", value));
   };
   for (const std::string& text : setupWords(setup)) word(text);
-  if (fog.sigmaS > 0.0) flag("--sigma-s", fog.sigmaS);
+  if (fog.sigmaS) flag("--sigma-s", *fog.sigmaS);
   if (fog.sigmaA > 0.0) flag("--sigma-a", fog.sigmaA);
   if (fog.g != FogState().g) flag("--g", fog.g);
   if (fog.ambient > 0.0) flag("--ambient", fog.ambient);
@@ -121,7 +121,7 @@ FogMedium fogMediumOf(const FogState& fog, const glm::dvec3& originW) {
   FogMedium medium{.sigmaA = glm::vec3(static_cast<float>(fog.sigmaA)),
                    .g = static_cast<float>(fog.g),
                    .ambient = static_cast<float>(fog.ambient)};
-  if (fog.sigmaS > 0.0) medium.sigmaS = glm::vec3(static_cast<float>(fog.sigmaS));
+  if (fog.sigmaS) medium.sigmaS = glm::vec3(static_cast<float>(*fog.sigmaS));
   if (!fog.density.empty())
     medium.density = std::make_shared<const DensityGrid>(
         fog.density,

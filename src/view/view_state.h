@@ -25,8 +25,8 @@ inline constexpr int kSideCount = 2;  // A and B
 
 struct FogState {
   bool on = false;
-  double sigmaS = 0.0;  // 1/m; 0: the default of `gnomon fog`
-  double sigmaA = 0.0;  // 1/m
+  std::optional<double> sigmaS;  // 1/m; absent: the default of `gnomon fog`
+  double sigmaA = 0.0;           // 1/m
   double g = 0.2;
   double ambient = 0.0;                 // cd/m^2
   std::string density;                  // FILE.vdb[:grid]; empty: homogeneous

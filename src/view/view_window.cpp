@@ -182,9 +182,10 @@ void ViewWindow::takePicture() {
   picture_ = newest;
   // This frame, and at rest one more, in which the interface has settled.
   framesPending_ = std::max(framesPending_, goesOn_ ? 1 : 2);
-  pictureProblem_ = newest->problem;
+  const bool isNews = newest->problem != std::exchange(pictureProblem_, newest->problem);
   if (!newest->problem.empty()) {
-    say(newest->problem, true);
+    if (isNews) say(newest->problem, true);
+    framesPending_ = 3;  // its box has the size that it asked for a frame before
     // The files that are shown are those that were.
     if (newest->number != number_) return;
     const bool lostScene = newest->sceneFailed && goodState_.setup.scene != state_.setup.scene;
@@ -340,7 +341,7 @@ void ViewWindow::frame() {
   if (redrawKept_) {
     redrawKept_ = false;
     guarded([&] {
-      const std::string path = fmt::format("gnomon-view-window-{:04}.png", framesDrawn_);
+      const std::string path = freeName("gnomon-view-window");
       writePng(path, presenter_->kept());
       say("wrote " + path, false);
     });
@@ -412,7 +413,8 @@ int ViewWindow::run() {
   if (!options_.json.empty()) writeJson();
   const size_t messages = worker_->validationMessages() + presenter_->validationMessages() + forgottenMessages_;
   if (messages > 0) throw WorldError(fmt::format("the validation layers have {} messages", messages));
-  if (options_.frames && !pictureProblem_.empty()) throw WorldError(pictureProblem_);
+  if (options_.frames && !pictureProblem_.empty())
+    throw WorldError((options_.session.empty() ? "" : printable(options_.session) + ": ") + pictureProblem_);
   return 0;
 }
 

@@ -134,6 +134,8 @@ class ViewWindow {
   void setControl(std::string name, std::string value);
   std::string getControl(std::string name);
   void saveSession(const std::string& path);
+  // Of a file that is not there: "stem-0001.png".
+  static std::string freeName(const std::string& stem);
   void writePictureFile(const std::string& path, int side);
   void copyCommand(bool ofComparison);
   std::pair<int, int> pictureSize() const;
@@ -147,6 +149,7 @@ class ViewWindow {
   void drawControls();
   void drawControl(const Control& control);
   void drawNumber(const Control& control);
+  void drawFogNotes();
   void drawCounts();
   void drawTimes();
   static float statusHeight();  // pixels
@@ -228,6 +231,12 @@ class ViewWindow {
   bool messageIsProblem_ = false;
   ViewClock::time_point messageTime_;
   std::string pictureProblem_;
+
+  struct Typed {
+    std::string control, value;
+    int frame = -2;  // the last one in which it was being typed
+  };
+  Typed typed_;  // a number that is not set yet
 
   std::vector<std::string> dropped_;
   std::deque<InputEvent> input_;       // that no frame has seen yet, in its order

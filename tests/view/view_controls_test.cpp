@@ -183,6 +183,31 @@ TEST(ViewControls, ABiasFileHasItsParameters) {
   EXPECT_THROW(findControl(viewControls(nullptr, state), "a.knob.reach"), UsageError);
 }
 
+// A session may be opened from another folder.
+TEST(ViewControls, ASessionNamesFilesFromItsOwnFolder) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path session = folder.path() / "sub" / "s.json", bias = folder.path() / "mine.glsl";
+  writeTextFile(bias, "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) { return true; }\n");
+  ViewState state = stateOf("atrium");
+  set(state, viewControls(nullptr, state), "a.bias", std::filesystem::proximate(bias).string());
+  const std::string saved = sessionJson(state, session.string());
+  EXPECT_NE(saved.find("\"../mine.glsl\""), std::string::npos) << saved;
+  const ViewState read = readSession(session.string(), saved, stateOf("corner"));
+  EXPECT_EQ(std::filesystem::weakly_canonical(findControl(viewControls(nullptr, read), "a.bias").get(read)), bias);
+  EXPECT_EQ(read.setup.scene, "atrium");
+}
+
+// Nothing is a number of its own.
+TEST(ViewControls, ScatteringIsTheScenesUnlessItIsGiven) {
+  ViewState state = stateOf("atrium");
+  const std::vector<Control> controls = viewControls(nullptr, state);
+  state.fog.on = true;
+  EXPECT_EQ(findControl(controls, "fog.sigma-s").get(state), "");
+  EXPECT_EQ(pictureCommand(state, 0, 64, 48, "p.png").find("--sigma-s"), std::string::npos);
+  set(state, controls, "fog.sigma-s", "0");
+  EXPECT_NE(pictureCommand(state, 0, 64, 48, "p.png").find("--sigma-s 0"), std::string::npos);
+}
+
 // What means nothing on a volume is refused there, in whatever order it is set.
 TEST(ViewControls, AVolumeTakesNoFilter) {
   ViewState state = stateOf("atrium");

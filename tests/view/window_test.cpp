@@ -209,8 +209,9 @@ TEST_F(WindowTest, ABiasThatIsReadAgainIsAnother) {
 }
 
 TEST_F(WindowTest, ATurntableIsWritten) {
-  const Result played = play("lshape --size 64 --map-size 64", "wait-refined\nturntable turn 3 light\n");
+  const Result played = play("lshape --size 64 --map-size 64", "wait-refined\nkey p\nkey p\nturntable turn 3 light\n");
   expectFine(played);
+  EXPECT_EQ(readFile(folder() / "gnomon-view-0001.png"), readFile(folder() / "gnomon-view-0002.png"));
   for (const char* file : {"turn/frames/0000.png", "turn/frames/0001.png", "turn/frames/0002.png"})
     EXPECT_TRUE(std::filesystem::exists(folder() / file)) << file;
   EXPECT_NE(readFile(folder() / "turn/frames/0000.png"), readFile(folder() / "turn/frames/0001.png"));
@@ -261,9 +262,13 @@ TEST_F(WindowTest, ANumberIsTypedInALongFrame) {
   expectFine(viewByHand("lshape --size 128 --map-size 64 --window 1000x700 --session s.json",
                         "$x key --delay 0 Tab; sleep 1; pid=$($x getwindowpid $id); kill -STOP $pid; "
                         "$x mousemove 105 225 keydown ctrl click 1 keyup ctrl key --delay 0 0 period 4 4 BackSpace; "
-                        "sleep 0.1; $x key --delay 0 BackSpace 2 5 Return ctrl+s; kill -CONT $pid; sleep 1"));
-  const auto session = nlohmann::json::parse(readFile(folder() / "s.json"));
-  EXPECT_EQ(session.value("split-at", ""), "0.25") << session;
+                        "sleep 0.1; $x key --delay 0 BackSpace 2 5 Return ctrl+s; kill -CONT $pid; sleep 1; "
+                        "cp s.json typed.json; $x key --delay 0 ctrl+z; sleep 1; $x key --delay 0 ctrl+s"));
+  const auto edgeIn = [&](const char* file) {
+    return nlohmann::json::parse(readFile(folder() / file)).value("split-at", "");
+  };
+  EXPECT_EQ(edgeIn("typed.json"), "0.25");
+  EXPECT_EQ(edgeIn("s.json"), "0.5");  // one step, not one a digit
 }
 
 // Held on when Ctrl is let go, S is no flight backwards.
@@ -299,6 +304,8 @@ TEST_F(WindowTest, MistakesAreOneLine) {
   expectMistake(play("lshape", "fly away\n"), 1, "script:1: fly: no such verb");
   expectMistake(play("lshape --size 64", "wait-refined\nexpect split on\n"), 1, "script:2: split is 'off', not 'on'");
   expectMistake(play("lshape --size 64", "set a.bias biass\n"), 1, "script:1: ");
+  expectMistake(play("lshape --size 64", "wait-refined\nset light nosuch\nwait-refined\npicture p.png\n"), 1,
+                "script:4: there is no picture of this: --light nosuch");
   expectMistake(view("nosuchscene --frames 3"), 1, "nosuchscene");
   expectMistake(view("lshape --frames 3 --window 0x5"), 2, "--window 0x5");
   expectMistake(view("lshape --frames 3 --ui-scale nan"), 2, "nan");
