@@ -146,6 +146,7 @@ code::Known knownOf(const ExportChoice& choice, bool instanced, bool masked) {
       {"tables.idShift", "kIdShift"},   {"lightFrame", "map.frame"},       {"map.sliceCount", "kSliceCount"}};
   known.unread = {"known", "filterKnown", "pixelDiagnosis"};
   known.roots = {"receiverAt", "receiverVisibility"};
+  known.userFile = kUserBiasFile;
   return known;
 }
 

@@ -89,6 +89,27 @@ class Refusal {
     }
   }
 
+  // What simplify() replaces wherever it stands, or lets go of.
+  void ofEffects(const Known& known) const {
+    eachUserExpr([&](const Expr& e) {
+      const bool writes = e.isAssignment() || e.text == "++" || e.text == "--";
+      if (writes && !e.kids.empty() && e.kids[0].kind == Expr::Kind::Member) {
+        const std::string path = e.kids[0].kids[0].text + "." + e.kids[0].text;
+        if (e.kids[0].kids[0].kind == Expr::Kind::Atom &&
+            (known.replacements.contains(path) || known.values.contains(path)))
+          failAt(e.line, fmt::format("{} is a constant in exported code; copy it to a variable", path));
+      }
+      const Decl* called = e.kind == Expr::Kind::Call ? program_.find(e.text) : nullptr;
+      if (called == nullptr || called->file == kUserBiasFile) return;
+      for (const Expr& argument : e.kids)
+        if (writesVariable(argument, program_))
+          failAt(e.line,
+                 fmt::format("an argument of {} writes to a variable, and may go with what {} does not need of it "
+                             "here; write it on a line of its own",
+                             e.text, e.text));
+    });
+  }
+
   // Knobs become constants: each is read by its own, and nothing else of them is left.
   void ofKnobs() const {
     eachUserExpr([&](const Expr& e) {
@@ -241,6 +262,7 @@ void refuseUserCode(const Program& program, const UserBias& user, const Known& k
                     const std::set<std::string>& taken) {
   Refusal refusal(program, user, language);
   refusal.ofNames(known, taken);
+  refusal.ofEffects(known);
   refusal.ofKnobs();
   refusal.ofBuiltIns();
   refusal.ofUntranslated();

@@ -45,10 +45,14 @@ class Simplifier {
 
   void run() {
     for (Decl& decl : program_.decls)
-      if (decl.kind == Decl::Kind::Constant && !known_.values.contains(decl.name) && decl.value)
+      if (decl.kind == Decl::Kind::Constant && !isUsers(decl) && !known_.values.contains(decl.name) && decl.value)
         if (const auto value = evaluate(*decl.value)) constants_[decl.name] = *value;
     for (size_t before = 0, now = size(); before != now; before = now, now = size()) {
       for (Decl& decl : program_.decls) {
+        if (isUsers(decl)) {
+          eachExpr(decl, [&](Expr& expr) { replace(expr), replaceByNumber(expr); });
+          continue;
+        }
         foldBody(decl.body);
         if (decl.hasBody && decl.body.size() == 1 && decl.body[0].kind == Stmt::Kind::Return && decl.body[0].expr)
           if (const auto value = evaluate(*decl.body[0].expr)) constantFunctions_[decl.name] = *value;
@@ -62,6 +66,8 @@ class Simplifier {
   }
 
  private:
+  bool isUsers(const Decl& decl) const { return decl.file == known_.userFile; }
+
   // Of the program, so that a pass that changes nothing shows.
   size_t size() {
     size_t count = 0;
@@ -122,9 +128,7 @@ class Simplifier {
 
   void fold(Expr& expr) const {
     for (Expr& kid : expr.kids) fold(kid);
-    if (const std::string path = pathOf(expr); !path.empty())
-      if (const auto found = known_.replacements.find(path); found != known_.replacements.end())
-        expr = pathExpr(found->second);
+    replace(expr);
     if (expr.kind == Expr::Kind::Ternary) {
       if (const auto value = evaluate(expr.kids[0])) expr = Expr(expr.kids[*value != 0.0 ? 1 : 2]);
     } else if (expr.kind == Expr::Kind::Binary && (expr.text == "&&" || expr.text == "||")) {
@@ -146,6 +150,20 @@ class Simplifier {
       const Decl* decl = program_.find(expr.text);
       if (decl != nullptr && decl->type == "bool") expr = atom(value != 0.0 ? "true" : "false");
     }
+  }
+
+  void replace(Expr& expr) const {
+    if (const std::string path = pathOf(expr); !path.empty())
+      if (const auto found = known_.replacements.find(path); found != known_.replacements.end())
+        expr = pathExpr(found->second);
+  }
+
+  // Constants and choices that exported code has no names for, all of them whole.
+  void replaceByNumber(Expr& expr) const {
+    const std::string path = pathOf(expr);
+    if (!path.starts_with("k") && !path.starts_with("params.")) return;
+    if (const auto found = known_.values.find(path); found != known_.values.end())
+      expr = atom(std::to_string(static_cast<int64_t>(found->second)));
   }
 
   static Expr pathExpr(const std::string& path) {
@@ -279,7 +297,7 @@ class Simplifier {
   // Functions that only call another with the same arguments, or return one of them.
   void dropForwarders() {
     for (Decl& decl : program_.decls) {
-      if (std::ranges::find(known_.roots, decl.name) != known_.roots.end()) continue;
+      if (isUsers(decl) || std::ranges::find(known_.roots, decl.name) != known_.roots.end()) continue;
       if (decl.body.size() != 1 || decl.body[0].kind != Stmt::Kind::Return || !decl.body[0].expr) continue;
       const Expr& value = *decl.body[0].expr;
       if (value.kind == Expr::Kind::Atom && decl.params.size() == 1 && value.text == decl.params[0].name) {
@@ -301,9 +319,10 @@ class Simplifier {
   template <typename Replace>
   void replaceCalls(const std::string& name, const Replace& replace) {
     for (Decl& caller : program_.decls)
-      eachExpr(caller, [&](Expr& expr) {
-        if (expr.kind == Expr::Kind::Call && expr.text == name) replace(expr);
-      });
+      if (!isUsers(caller))
+        eachExpr(caller, [&](Expr& expr) {
+          if (expr.kind == Expr::Kind::Call && expr.text == name) replace(expr);
+        });
   }
 
   // A case's statements, without the break that ends them.
@@ -375,6 +394,7 @@ class Simplifier {
       for (size_t i = decl.params.size(); i-- > 0;) {
         const Param& param = decl.params[i];
         if (isRoot && !known_.unread.contains(param.name)) continue;
+        if (isUsers(decl) && !isGnomonStruct(param.type)) continue;
         // What is only declared takes what every language has: places.
         const bool used = decl.hasBody ? mentions(decl, param.name) > 0 : param.type != "LookupTables";
         if (used && !known_.unread.contains(param.name)) continue;
@@ -389,18 +409,36 @@ class Simplifier {
     }
   }
 
+  bool isGnomonStruct(const std::string& type) const {
+    const Decl* decl = program_.find(type);
+    return decl != nullptr && decl->kind == Decl::Kind::Struct && !isUsers(*decl);
+  }
+
   static bool assigns(const Expr& left, const std::string& member) {
     for (const Expr* at = &left; at->kind == Expr::Kind::Member || at->kind == Expr::Kind::Index; at = &at->kids[0])
       if (at->kind == Expr::Kind::Member && at->text == member) return true;
     return false;
   }
 
+  static void insertMembers(const Decl& decl, std::set<std::string>& names) {
+    for (const Stmt& member : decl.members)
+      for (const Declarator& name : member.names) names.insert(name.name);
+  }
+
   // Members that are read only to be assigned to themselves.
   void dropUnreadMembers() {
     std::set<std::string> read, declared;
     for (Decl& decl : program_.decls) {
-      for (const Stmt& member : decl.members)
-        for (const Declarator& name : member.names) declared.insert(name.name);
+      if (isUsers(decl)) {
+        // Written to as well as read; and what makes a whole structure names each.
+        eachExpr(decl, [&](Expr& expr) {
+          if (expr.kind == Expr::Kind::Member) read.insert(expr.text);
+          if (expr.kind == Expr::Kind::Call && isGnomonStruct(expr.text))
+            insertMembers(*program_.find(expr.text), read);
+        });
+        continue;
+      }
+      insertMembers(decl, declared);
       eachStmt(decl.body, [&](Stmt& stmt) {
         std::vector<Expr*> parts;
         for (Declarator& name : stmt.names)
@@ -427,6 +465,7 @@ class Simplifier {
     for (const std::string& name : declared)
       if (!read.contains(name) && name.size() > 1) dead.insert(name);
     for (Decl& decl : program_.decls) {
+      if (isUsers(decl)) continue;
       for (Stmt& member : decl.members)
         std::erase_if(member.names, [&](const Declarator& name) { return dead.contains(name.name); });
       std::erase_if(decl.members, [](const Stmt& member) { return member.names.empty(); });
