@@ -263,11 +263,23 @@ void tellUnusedFlags(const FogFlags& flags, const FogOptions& options) {
   const auto usesMap = [](const Integrator* integrator) { return integrator->reads == Integrator::Reads::Depths; };
   unused.tellUnless(std::ranges::any_of(options.integrators, usesMap), "--march-map",
                     "march is not among --integrators");
+  // In a density every integrator takes steps.
+  unused.tellUnless(options.medium.density != nullptr || std::ranges::any_of(options.integrators, usesMap), "--steps",
+                    "march is not among the integrators, and there is no --density; give --integrators march");
   const bool usesVolume = !std::ranges::all_of(options.integrators, usesMap);
   for (const MapOption* option : volumeParameterization().options())
     unused.tellUnless(usesVolume, option->flag(), "march alone uses no shadow volume");
   unused.tellUnless(!flags.out.empty() && std::filesystem::path(flags.out).extension() != ".exr", "--exposure",
                     "it is of PNG pictures, which -o writes");
+}
+
+void tellLightsLeftOut(const Session& session) {
+  if (session.setup().light != "all") return;
+  const std::vector<Light> lights = chooseLights(session.setup(), session.tracer(), volumeParameterization());
+  for (const Light& light : session.scene().lights)
+    if (std::ranges::find(lights, light.name, &Light::name) == lights.end())
+      fmt::print(stderr, "gnomon: note: light '{}' is left out: a medium is lit by lamps, which have a position\n",
+                 light.name);
 }
 
 void tellStandingLights(const FogFlags& flags, const FogOptions& options, const Session& session) {
@@ -312,6 +324,7 @@ int runFogVerb(const FogFlags& flags) {
   const Session session = openSession(flags.scene);
   FogOptions options = fogOptions(flags, session.scene().originW);
   tellUnusedFlags(flags, options);
+  tellLightsLeftOut(session);
   tellStandingLights(flags, options, session);
   options.outDir = folder.aside();
   FogResult result = runFog(session, options);

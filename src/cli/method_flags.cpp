@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "cli/unused_flags.h"
 #include "lab/core/maps.h"
+#include "planar/planar_map.h"
+#include "planar/warp.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -63,6 +65,9 @@ void tellUnusedFlags(const CLI::App& verb, const CompareOptions& options) {
     unused.tellUnless(
         std::ranges::any_of(options.maps, [&](const Parameterization* map) { return isIn(map->options(), option); }),
         option->flag(), fmt::format("the map {} has no such option", maps));
+  const bool mayWarp =
+      std::ranges::any_of(options.maps, [](const Parameterization* map) { return isIn(map->options(), &kSnap); });
+  unused.tellUnless(!mayWarp || options.mapOptions.get(kWarp) == Warp::None, kSnap.flag(), "warped maps cannot snap");
 }
 
 }  // namespace

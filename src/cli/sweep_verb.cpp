@@ -302,7 +302,10 @@ Run addSweep(CLI::App* verb) {
         ->capture_default_str();
     verb->add_option("--sbatch", flags->sbatch, "a flag for sbatch, as in --sbatch=--partition=long; may be repeated")
         ->allow_extra_args(false);
-    verb->add_option("--slurm-collect", flags->submission, "")->check(CLI::Range(1, kMostSubmissions))->group("");
+    verb->add_option("--slurm-collect", flags->submission,
+                     "for the job that --slurm itself submits: what fails is submitted again, the stores are merged")
+        ->check(CLI::Range(1, kMostSubmissions))
+        ->group("");
     offersFiles(verb->add_option("-o,--out", flags->out, "of merge: the store to write"));
     verb->add_option("--device", flags->device,
                      "part of a Vulkan device's name; default: a GPU if there is one, else the CPU device (lavapipe)");

@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 namespace gnomon {
@@ -38,7 +39,11 @@ Run addView(CLI::App* verb) {
   offersFiles(
       verb->add_option("--picture", flags->picture, "at the end, writes the picture of A as `gnomon render` does"));
   offersFiles(verb->add_option("--json", flags->json, "at the end, writes what was measured: times, latency"));
-  verb->add_option("--window", flags->window, "size of the window, WxH pixels")->capture_default_str();
+  verb->add_option("--window", flags->window, "size of the window, WxH pixels")
+      ->check([](const std::string& text) {
+        return text.find('x') != std::string::npos ? "" : fmt::format("{}: write WxH, as in 1280x800", text);
+      })
+      ->capture_default_str();
   verb->add_option("--ui-scale", flags->scale, "of text and controls; default: the display's")->check(within(0.5, 4.0));
   return [flags, biases] {
     flags->biasIsGiven = biases->count() > 0;

@@ -17,12 +17,14 @@ const std::vector<Channel>& channels() {
   static const std::vector<Channel> all = {
       {.bit = kChannelDepth,
        .name = "depth",
+       .member = "z1",
        .pass = ChannelPass::Nearest,
        .format = VK_FORMAT_D32_SFLOAT,
        .location = kDepthBuffer,
        .binding = glsl::kBindMapDepth},
       {.bit = kChannelSecondDepth,
        .name = "second-depth",
+       .member = "z2",
        .pass = ChannelPass::Second,
        .format = VK_FORMAT_R32_SFLOAT,
        .location = 0,
@@ -31,12 +33,14 @@ const std::vector<Channel>& channels() {
        .needs = kChannelDepth},
       {.bit = kChannelBackDepth,
        .name = "back-depth",
+       .member = "zBack",
        .pass = ChannelPass::BackFaces,
        .format = VK_FORMAT_D32_SFLOAT,
        .location = kDepthBuffer,
        .binding = glsl::kBindBackDepth},
       {.bit = kChannelIds,
        .name = "ids",
+       .member = "id1",
        .pass = ChannelPass::Nearest,
        .format = VK_FORMAT_R32_UINT,
        .location = 1,
@@ -45,6 +49,7 @@ const std::vector<Channel>& channels() {
        .needs = kChannelDepth},
       {.bit = kChannelSecondIds,
        .name = "second-ids",
+       .member = "id2",
        .pass = ChannelPass::Second,
        .format = VK_FORMAT_R32_UINT,
        .location = 2,
@@ -99,19 +104,11 @@ std::optional<ChannelSet> parseChannels(const std::string& list) {
   return set == 0 ? std::nullopt : std::optional(completed(set));
 }
 
-namespace {
-
-std::string joined(ChannelSet set) {
+std::string channelNames(ChannelSet set) {
   std::string names;
   for (const Channel& channel : channels())
     if ((set & channel.bit) != 0) names += (names.empty() ? "" : ", ") + std::string(channel.name);
   return names;
-}
-
-}  // namespace
-
-std::string channelNames() {
-  return joined(~0);
 }
 
 std::string contentName(ChannelSet set) {
@@ -126,7 +123,7 @@ std::string contentName(ChannelSet set) {
     case kChannelIds:
       return "one layer, ids";
     default:
-      return joined(set);
+      return channelNames(set);
   }
 }
 

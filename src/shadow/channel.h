@@ -24,8 +24,9 @@ enum class ChannelPass {
 };
 
 struct Channel {
-  ChannelSet bit;    // one kChannel*
-  const char* name;  // in a user's `//! channels:`, and in reports
+  ChannelSet bit;      // one kChannel*
+  const char* name;    // in a user's `//! channels:`, and in reports
+  const char* member;  // of Tap, which holds it
   ChannelPass pass;
   VkFormat format;
   int location;  // of the colour that fragments store it in; kDepthBuffer: it is the depth buffer of its pass
@@ -51,7 +52,7 @@ ChannelSet writtenBy(ChannelPass pass, ChannelSet set);
 
 // "depth, second-depth" and the like; nothing where a name is none of the list's, or where there is no name.
 std::optional<ChannelSet> parseChannels(const std::string& list);
-std::string channelNames();
+std::string channelNames(ChannelSet set = ~0);
 
 // For reports: "one layer", "two layers", "back faces"; other sets by their channels' names.
 std::string contentName(ChannelSet set);

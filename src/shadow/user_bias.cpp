@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -162,6 +164,88 @@ void checkConditionals(const UserBias& bias) {
     throw lineError(bias, open.back().second, fmt::format("#{} has no #endif", open.back().first), "write one");
 }
 
+// Members of Tap and Receiver that a text reads, in its order, and the channels that hold them.
+class ChannelReads {
+ public:
+  struct Read {
+    std::string text;  // "tap.z2"
+    int line;
+    ChannelSet anyOf;  // one of these is enough
+    ChannelSet first;  // the one to ask for
+  };
+
+  explicit ChannelReads(const std::string& glsl) : words_(gpu::wordsOf(glsl)) {
+    for (size_t i = 0; i < words_.size(); ++i) {
+      findDeclared(i);
+      if (is(i, ".") && i > 0 && i + 1 < words_.size()) findRead(i);
+    }
+  }
+
+  const std::vector<Read>& all() const { return reads_; }
+
+ private:
+  bool is(size_t i, const char* text) const { return i < words_.size() && words_[i].text == text; }
+  bool isName(size_t i) const { return i < words_.size() && words_[i].isName(); }
+
+  // "Tap a", and b of "Tap a = f(c, d), b". A name has the type of its last declaration so far.
+  void findDeclared(size_t i) {
+    depth_ += is(i, "(") || is(i, "[") ? 1 : is(i, ")") || is(i, "]") ? -1 : 0;
+    if (is(i, ";") || is(i, "{") || depth_ < declaredDepth_) declaredType_.clear();
+    if (isName(i) && isName(i + 1) && !is(i, "return") && !is(i, "else")) {
+      declaredType_ = words_[i].text;
+      declaredDepth_ = depth_;
+      types_[words_[i + 1].text] = declaredType_;
+    } else if (is(i, ",") && depth_ == declaredDepth_ && !declaredType_.empty() && isName(i + 1) && !isName(i + 2)) {
+      types_[words_[i + 1].text] = declaredType_;
+    }
+  }
+
+  // `i`: of the point.
+  void findRead(size_t i) {
+    size_t of = i - 1;  // "taps" of "taps[1].z2"
+    for (int depth = 0; of > 0; --of) {
+      depth += is(of, "]") ? 1 : is(of, "[") ? -1 : 0;
+      if (depth == 0 && !is(of, "[")) break;
+    }
+    const auto type = types_.find(words_[of].text);
+    if (type == types_.end()) return;
+    Read read{.text = words_[of].text + "." + words_[i + 1].text, .line = words_[i + 1].line, .anyOf = 0, .first = 0};
+    if (type->second == "Tap")
+      for (const Channel& channel : channels())
+        if (is(i + 1, channel.member)) read.anyOf = read.first = channel.bit;
+    if (type->second == "Receiver" && is(i + 1, "id")) {
+      read.first = glsl::kChannelIds;
+      read.anyOf = glsl::kChannelIds | glsl::kChannelSecondIds;  // shaders/shadow/receiver_id.glsl
+    }
+    if (is(i + 2, "=") && !is(i + 3, "="))
+      written_.insert(read.text);  // from here on it holds what the bias put there
+    else if (read.anyOf != 0 && !written_.contains(read.text))
+      reads_.push_back(read);
+  }
+
+  std::vector<gpu::Word> words_;
+  std::map<std::string, std::string> types_;  // of variables, by name
+  std::set<std::string> written_;
+  std::vector<Read> reads_;
+  std::string declaredType_;
+  int depth_ = 0, declaredDepth_ = 0;
+};
+
+// What the map does not hold is as in an empty texel, and the bias would be scored as another.
+void checkChannels(const UserBias& bias) {
+  const ChannelReads reads(bias.source);
+  ChannelSet needed = bias.method.channels;
+  const ChannelReads::Read* missing = nullptr;
+  for (const ChannelReads::Read& read : reads.all()) {
+    if ((bias.method.channels & read.anyOf) != 0) continue;
+    needed |= read.first;
+    if (missing == nullptr) missing = &read;
+  }
+  if (missing != nullptr)
+    throw lineError(bias, missing->line, "reads " + missing->text,
+                    "write //! channels: " + channelNames(completed(needed)));
+}
+
 }  // namespace
 
 UserBiasKey::UserBiasKey(const UserBias* of) : bias(of), number(of != nullptr ? of->number : 0) {}
@@ -212,6 +296,7 @@ std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, 
                     "write the file as text");
   checkConditionals(*bias);
   readHeader(*bias);
+  checkChannels(*bias);
   bias->knobsGlsl = knobsGlsl(bias->method.knobs);
   for (const BiasMethod& method : biasMethods())
     if (bias->name == method.name)

@@ -37,7 +37,8 @@ struct UserBias {
   BiasMethod method;      // its strings are those above
 };
 
-// Throws WorldError: no such file, or a "//!" line that is not understood ("file:line: ...").
+// Throws WorldError: no such file, a "//!" line that is not understood, or a channel that is read and not declared
+// ("file:line: ...").
 std::unique_ptr<const UserBias> loadUserBias(const std::filesystem::path& path);
 // The same of a text; `path` is what complaints name.
 std::unique_ptr<const UserBias> readUserBias(const std::filesystem::path& path, const std::string& source);

@@ -34,6 +34,8 @@ inline constexpr Mistake kMistakes[] = {
     {"compare contact --cull all", 2, "--cull all"},
     {"compare contact --fit wide", 2, "--fit wide: no such choice"},
     {"compare contact --snap yes", 2, "--snap yes: no such choice"},
+    {"view --window 12", 2, "12: write WxH, as in 1280x800"},
+    {"fog corner --light sun --size 16", 2, "sun"},
     {"compare contact --warp fish", 2, "--warp fish: no such choice"},
     {"compare contact --cascades two", 2, "--cascades two: write a whole number of 1..4"},
     {"compare contact --cube-depth cubic", 2, "--cube-depth cubic: no such choice; choose from hyperbolic"},

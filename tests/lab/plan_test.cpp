@@ -94,6 +94,11 @@ TEST(Plan, MistakesAreNamedWithTheirPlace) {
       {"\"none\",", "\"none\" \"adaptive\",", "p.json:8:30: is not JSON: syntax error"},
       {"\"a plan\"", "\"a plan\", \"name\": \"b\"", "name stands here twice"},
       {"\"hall\"", "\"atrium\"", "scenes[1] 'atrium' is the name of two scenes"},
+      {"[64, 128]", "[]", "p.json:7:16: map_sizes are none; leave the field out, or give one"},
+      {"{\"scene\": \"hall\"", "{\"scene\": \"hal*\", \"bias\": \"slop\"",
+       "exclude[0].bias is slop, which leaves out nothing of the plan; did you mean slope?"},
+      {"{\"scene\": \"hall\"", "{\"scene\": \"zzz*\"",
+       "exclude[0].scene is zzz*, which leaves out nothing of the plan; choose from "},
       {"\"cube\",", "\"cub\",", "p.json:6:12: maps[0] is wrong: --maps cub: no such map; did you mean cube?"},
   };
   for (const auto& [what, instead, complaint] : kMistakes) {

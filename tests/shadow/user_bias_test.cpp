@@ -102,6 +102,32 @@ TEST_F(UserBiasTest, MistakesNameFileAndLine) {
   EXPECT_THROW(loadUserBias(folder_.path() / "absent.glsl"), WorldError);
 }
 
+// The map holds what is declared; of anything else every texel is empty, and the bias would be another.
+TEST_F(UserBiasTest, WhatItReadsItDeclares) {
+  const std::string head = "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) ";
+  expectMistake("\n" + head + "{\n return 0.5 * (tap.z1 + tap.z2) > 0.5;\n}",
+                "mine.glsl:3: reads tap.z2; write //! channels: depth, second-depth");
+  expectMistake("//! channels: back-depth\n" + head + "{ return tap.zBack < tap.z1; }",
+                "mine.glsl:2: reads tap.z1; write //! channels: depth, back-depth");
+  expectMistake(head + "{ return tap.zBack > 0.5 && tap.id2 == 0u; }",
+                "mine.glsl:1: reads tap.zBack; write //! channels: depth, second-depth, back-depth, second-ids");
+  expectMistake(head + "{ return receiver.id == 0u; }", "reads receiver.id; write //! channels: depth, ids");
+  expectMistake(head + "{ Tap a = tap, b = f(a, a); return b.id1 == 0u; }", "reads b.id1; write //! channels: ");
+  expectMistake(head + "{ Tap taps[2]; return taps[int(tap.z1)].z2 > 0.5; }", "reads taps.z2; write //! channels: ");
+  expectMistake("float f(Tap other) { return other . z2; }\n" + head + "{ return f(tap) > 0.5; }", "reads other.z2;");
+  for (const std::string fine :
+       {head + "{ return tap.z1 > 0.5; } // tap.z2", "struct Mine { float z2; };\n" + head + "{ Mine a; return a.z2; }",
+        "struct Mine { float z2; };\nfloat f(Mine tap) { return tap.z2; }\n" + head + "{ return tap.z1 > 0.5; }",
+        head + "{ Tap mine = tap; mine.z2 = 0.5; return mine.z2 > tap.z1; }",
+        "//! channels: ids\n" + head + "{ return tap.z1 > 0.5 && tap.id1 == receiver.id; }",
+        "//! channels: second-ids\n" + head + "{ return tap.id2 == receiver.id && tap.z2 > tap.z1; }",
+        "//! channels: second-depth, back-depth\n" + head + "{ return tap.z1 + tap.z2 + tap.zBack > 0.5; }"})
+    EXPECT_TRUE(load(fine)) << fine;
+  for (const Channel& channel : channels())
+    EXPECT_NE(readFile(test::inSource("shaders/shared/channels.glsl")).find(fmt::format(" {};", channel.member)),
+              std::string::npos);
+}
+
 // As the compiler sees them, comments and line breaks of all kinds considered.
 TEST_F(UserBiasTest, DirectivesAreTheCompilers) {
   for (const char* open : {"/* x */ #ifdef A", "/*\n*/ # /* x */ ifdef A", "a; // x\r#ifdef A", "// x\r\n#ifdef A",

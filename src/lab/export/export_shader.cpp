@@ -16,7 +16,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,6 +30,7 @@ using code::Decl;
 using code::Expr;
 using code::Language;
 using code::Program;
+using code::Stmt;
 using code::Table;
 
 constexpr float kUnknownDiagonal = 10.0f;  // metres, of a scene that nobody named
@@ -181,6 +184,36 @@ void gatherConstants(Program& program) {
   std::stable_partition(program.decls.begin(), program.decls.end(),
                         [](const Decl& decl) { return decl.file == "constants"; });
 }
+
+// Each behind what it names: a user's functions may be declared first and defined later. What is in order stays.
+class InOrder {
+ public:
+  explicit InOrder(Program& program) : program_(program) {
+    std::vector<Decl> all;
+    all.swap(program_.decls);
+    for (Decl& decl : all) waiting_.emplace(decl.name, &decl);
+    for (const Decl& decl : all) place(decl.name);
+  }
+
+ private:
+  void place(const std::string& name) {
+    const auto found = waiting_.find(name);
+    if (found == waiting_.end()) return;
+    Decl& decl = *found->second;
+    waiting_.erase(found);
+    place(decl.type);
+    for (const code::Param& param : decl.params) place(param.type);
+    for (std::vector<Stmt>* stmts : {&decl.members, &decl.body})
+      code::eachStmt(*stmts, [&](const Stmt& stmt) { place(stmt.type); });
+    code::eachExpr(decl, [&](const Expr& expr) {
+      if (expr.kind == Expr::Kind::Atom || expr.kind == Expr::Kind::Call) place(expr.text);
+    });
+    program_.decls.push_back(std::move(decl));
+  }
+
+  Program& program_;
+  std::map<std::string, Decl*> waiting_;
+};
 
 bool hasParam(const Program& program, const char* function, const char* name) {
   return std::ranges::any_of(program.find(function)->params,
@@ -386,6 +419,7 @@ Program leftOf(const ExportChoice& choice, const ExportedScene& facts) {
                   [](const code::Param& param) { return param.type == "ShadowMap"; });
   }
   gatherConstants(program);
+  InOrder{program};
   return program;
 }
 

@@ -49,6 +49,14 @@ class Parser {
         "{}:{}: '{}' is not understood here, {} was expected: export reads the dialect of docs/shared_glsl.md",
         token.file, token.line, token.text, wanted));
   }
+  // Of what a reader knows by its name. `remedy`: what to write.
+  [[noreturn]] void failConstruct(const std::string& name, const std::string& remedy) const {
+    const Token& token = tokens_[std::min(at_, tokens_.size() - 1)];
+    throw WorldError(fmt::format("{}:{}: export does not read {}; {}", token.file, token.line, name, remedy));
+  }
+  [[noreturn]] void failArray() const {
+    failConstruct("arrays of constants", "write a function with a switch, or an array whose elements are assigned");
+  }
   [[noreturn]] void failDeep() const {
     const Token& token = tokens_[std::min(at_, tokens_.size() - 1)];
     throw WorldError(fmt::format(
@@ -147,7 +155,9 @@ class Parser {
     operators_ = 0;
     want("const");
     decl.type = wantName();
+    if (is("[")) failArray();
     decl.name = wantName();
+    if (is("[")) failArray();
     want("=");
     decl.value = parseTernary();
     want(";");
@@ -215,11 +225,13 @@ class Parser {
     stmt.kind = Stmt::Kind::Declaration;
     while (is("const") || is("precise")) stmt.qualifiers.push_back(takeText());
     stmt.type = wantName();
+    if (is("[")) failArray();
     for (;;) {
       Declarator declarator;
       declarator.name = wantName();
       if (is("[")) {
         want("[");
+        if (is("]")) failArray();  // its values count it
         declarator.count = parseTernary();
         want("]");
       }
@@ -245,6 +257,7 @@ class Parser {
       stmt.body = parseBody();
       return stmt;
     }
+    if (is("do")) failConstruct("do-while loops", "write a for or a while");
     if (is("if") || is("while") || is("for") || is("switch")) return parseControl();
     if (is("break") || is("continue")) {
       stmt.kind = is("break") ? Stmt::Kind::Break : Stmt::Kind::Continue;
@@ -391,7 +404,7 @@ class Parser {
       if (expr.kids[0].kind == Expr::Kind::Atom) expr = Expr(expr.kids[0]);
     } else {
       if (at_ >= tokens_.size() || (!gpu::isWordLetter(tokens_[at_].text[0]) && tokens_[at_].text[0] != '.'))
-        fail("an expression");
+        is("{") ? failConstruct("values in braces", "assign each member or element") : fail("an expression");
       expr = made(Expr::Kind::Atom, takeText(), {}, begun);
     }
     for (;; countOperator()) {
@@ -405,9 +418,11 @@ class Parser {
         }
         want(")");
       } else if (is("[")) {
+        if (is("]", 1)) failArray();  // float[](...)
         want("[");
         expr = made(Expr::Kind::Index, "", {std::move(expr), parseTernary()}, line);
         want("]");
+        if (is("(")) failArray();  // float[3](...)
       } else if (is(".")) {
         want(".");
         expr = made(Expr::Kind::Member, wantName(), {std::move(expr)}, line);

@@ -98,11 +98,20 @@ ImageF surfaceSlice(const SceneView& scene, ShadowPasses& passes, const FogView&
   return surface;
 }
 
+// The medium's own complaint, as one of the flag.
+void checkHasPosition(const Light& light) {
+  try {
+    mediaLight(light);
+  } catch (const WorldError& error) {
+    throw UsageError(error.what());
+  }
+}
+
 }  // namespace
 
 std::vector<Light> fogLights(const Session& session) {
   for (const Light& light : session.scene().lights)
-    if (light.name == session.setup().light) mediaLight(light);  // says so where it has no position
+    if (light.name == session.setup().light) checkHasPosition(light);
   return chooseLights(session.setup(), session.tracer(), volumeParameterization());
 }
 

@@ -180,6 +180,9 @@ std::string factsText(const Answers& answers) {
   if (table.empty > 0) facts += fmt::format(" {} cases light nothing that their camera sees.", table.empty);
   if (table.failed > 0) facts += fmt::format(" {} cases failed (table failure).", table.failed);
   if (table.superseded > 0) facts += fmt::format(" {} older rows are superseded, and left out.", table.superseded);
+  if (table.media > 0)
+    facts +=
+        fmt::format(" {} rows of media are not among these: SELECT * FROM media_results, with sqlite3.", table.media);
   return facts;
 }
 

@@ -107,8 +107,13 @@ CaseTable measuredCases(const Store& store, const CaseFilter& filter) {
                                                 : rows.number(8);
     table.cases.push_back(std::move(one));
   }
+  const auto media = static_cast<size_t>(database.integerOf("SELECT count(*) FROM media_results"));
   if (table.cases.empty())
-    throw fileError(database.path().string(), "has no results (of these)", "run gnomon sweep first, or ask for others");
+    throw fileError(database.path().string(),
+                    media > 0 ? fmt::format("has no results of maps (of these), and {} of media", media)
+                              : "has no results (of these)",
+                    media > 0 ? "sqlite3 shows those of media: SELECT * FROM media_results"
+                              : "run gnomon sweep first, or ask for others");
   table.sizes.assign(sizes.begin(), sizes.end());
   for (MeasuredCase& one : table.cases)
     one.size =
@@ -123,6 +128,7 @@ CaseTable measuredCases(const Store& store, const CaseFilter& filter) {
   table.superseded = static_cast<size_t>(database.integerOf("SELECT count(*) FROM result WHERE superseded"));
   table.empty = static_cast<size_t>(database.integerOf("SELECT count(*) FROM tested WHERE empty IS NOT NULL"));
   table.failed = static_cast<size_t>(database.integerOf("SELECT count(*) FROM failure"));
+  table.media = media;
   return table;
 }
 

@@ -37,6 +37,7 @@ struct CaseTable {
   std::vector<MeasuredCase> cases;
   std::vector<std::string> programs, devices, machines;
   size_t superseded = 0, empty = 0, failed = 0;
+  size_t media = 0;  // rows of media, which are not among the cases
 };
 
 // Throws WorldError where nothing is left.

@@ -145,9 +145,18 @@ MapOptions optionsOf(const Plan& plan, const PlanMap& item) {
   return options;
 }
 
+// Whether the plan's text has this field.
+bool stands(const Plan& plan, const std::string& field) {
+  return std::ranges::find(plan.offsets, field, [](const auto& entry) { return entry.first; }) != plan.offsets.end();
+}
+
 void addMaps(const Plan& plan, Axes& axes) {
   const CullMode cull = at(plan, "cull", [&] { return parseCullMode(plan.cull); });
   std::vector<int> sizes = plan.mapSizes;
+  for (const char* field : {"map_sizes", "map_texels"}) {
+    const bool isEmpty = field == std::string_view("map_sizes") ? plan.mapSizes.empty() : plan.mapTexels.empty();
+    if (isEmpty && stands(plan, field)) plan.fail(field, "are none; leave the field out, or give one");
+  }
   if (sizes.empty() && plan.mapTexels.empty()) sizes = {1024};
   for (const PlanMap& item : plan.maps) {
     SweepMap map{.map = &findMap(plan, item.where, item.map)};
@@ -294,6 +303,30 @@ void addMedia(const Plan& plan, Axes& axes) {
   }
 }
 
+// Lights and cameras are not known before their scenes are open.
+void checkExclusions(const Plan& plan, const Axes& axes) {
+  std::vector<std::string> scenes, maps, biases, filters;
+  for (const SweepScene& scene : axes.scenes) scenes.push_back(scene.name);
+  for (const SweepMap& map : axes.maps) maps.emplace_back(map.map->name());
+  for (const SweepMedium& medium : axes.media) maps.emplace_back(medium.map->name());
+  for (const SweepMethod& method : axes.methods) biases.emplace_back(method.bias->name);
+  for (const Filter* filter : axes.filters) filters.emplace_back(filter->name);
+  for (const PlanExclusion& item : plan.exclude) {
+    const auto check = [&](const char* field, const std::string& pattern, const std::vector<std::string>& names) {
+      if (pattern == "*" || std::ranges::any_of(names, [&](const auto& name) { return fits(pattern, name); })) return;
+      std::string list;
+      for (const std::string& name : std::set<std::string>(names.begin(), names.end()))
+        list += (list.empty() ? "" : ", ") + name;
+      plan.fail(fmt::format("{}.{}", item.where, field), fmt::format("is {}, which leaves out nothing of the plan; {}",
+                                                                     oneLine(pattern, 40), chooseFrom(pattern, list)));
+    };
+    check("scene", item.scene, scenes);
+    check("map", item.map, maps);
+    check("bias", item.bias, biases);
+    check("filter", item.filter, filters);
+  }
+}
+
 }  // namespace
 
 Axes axesOf(const Plan& plan, const std::vector<std::string>& extraScenes,
@@ -316,6 +349,7 @@ Axes axesOf(const Plan& plan, const std::vector<std::string>& extraScenes,
     if (place.random > 0 && place.name != "default") plan.fail(place.where, "has a name and random; give one of them");
   for (const PlanPlace& place : plan.cameras)
     if (place.random > 0 && place.name != "default") plan.fail(place.where, "has a name and random; give one of them");
+  checkExclusions(plan, axes);
   return axes;
 }
 

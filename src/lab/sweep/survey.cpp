@@ -98,7 +98,8 @@ class Surveyor {
       survey_.found.insert(where);
       return true;
     } catch (const UsageError& error) {
-      survey_.missing.emplace_back(where, "is in no scene: " + oneLine(error.what(), 200));
+      survey_.missing.emplace_back(where,
+                                   fmt::format("is in no scene; of {}: {}", axis_.name, oneLine(error.what(), 200)));
       return false;
     }
   }

@@ -43,6 +43,40 @@ TEST(ExportOfUserCode, WhatItMayNotUseIsToldByItsLine) {
   }
 }
 
+TEST(ExportOfUserCode, WhatItDoesNotReadIsNamed) {
+  EXPECT_EQ(
+      refusal(fmt::format("{} {{\n  int i = 0;\n  do {{ ++i; }} while (i < 3);\n  return true;\n}}\n", kUserHead)),
+      "mine.glsl:3: export does not read do-while loops; write a for or a while");
+  const std::string arrays = "export does not read arrays of constants; write a function with a switch";
+  for (const char* array : {"const float k[3] = float[3](0.1f, 0.2f, 0.3f);", "const float k[] = float[](0.1f, 0.2f);",
+                            "const float[2] k = float[2](0.1f, 0.2f);", "const float k[2] = {0.1f, 0.2f};"}) {
+    const std::string global = refusal(fmt::format("\n{}\n{} {{ return tap.z1 > k[1]; }}\n", array, kUserHead));
+    EXPECT_TRUE(global.starts_with("mine.glsl:2: " + arrays)) << array << ": " << global;
+    if (std::string(array).find('{') != std::string::npos) continue;
+    const std::string local = refusal(fmt::format("{} {{\n  {}\n  return tap.z1 > k[1]; }}\n", kUserHead, array));
+    EXPECT_TRUE(local.starts_with("mine.glsl:2: " + arrays)) << array << ": " << local;
+  }
+}
+
+// In the order in which GLSL wants them; the text of what nobody declares before is as it was.
+TEST(ExportOfUserCode, WhatIsDeclaredFirstIsDefinedFirst) {
+  const std::string text = fmt::format(
+      "float later(float a);\n{} {{ return later(tap.z1) > 0.5f; }}\nconst float kHalf = 0.5f;\n"
+      "float last(float a);\nfloat later(float a) {{ float b = last(a); return b * kHalf * b; }}\n"
+      "float last(float a) {{ float b = a * a; return b + a; }}\n",
+      kUserHead);
+  const auto user = readUserBias("mine.glsl", text);
+  for (const Language language : {Language::Glsl, Language::GlslEs, Language::Hlsl, Language::Msl}) {
+    const std::string code = exportShader(choiceOf(kinds()[1], user->method, filters()[0], language)).text;
+    const size_t constant = code.find("kGnomonHalf"), last = code.find("gnomonLast("),
+                 later = code.find("gnomonLater("), lit = code.find("gnomonUserLit(");
+    EXPECT_LT(constant, later);
+    EXPECT_LT(last, later);
+    EXPECT_LT(later, lit);
+    EXPECT_NE(lit, std::string::npos) << code;
+  }
+}
+
 TEST(ExportOfUserCode, BrokenDirectivesAreToldByTheirLine) {
   const std::string body = std::string(kUserHead) + " { return tap.z1 > 0.5f; }\n";
   for (const char* directive :
