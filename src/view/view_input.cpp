@@ -122,6 +122,8 @@ void ViewWindow::handleMouse() {
   guarded([&] {
     if (drag_ == Drag::None && isMine) {
       const Light light = lightOf(state_, *traced_);
+      if (goesOn_ && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)))
+        rememberState();
       if (ImGui::IsMouseClicked(0)) {
         const float edge = static_cast<float>(place_.rect.x) + static_cast<float>(state_.splitAt * place_.rect.width);
         drag_ = Drag::Orbit;
@@ -188,8 +190,7 @@ void ViewWindow::handleMouse() {
   });
 }
 
-// Kept in its order until frames take it. ImGui's own callbacks stay for the wheel, and for what is held when a frame
-// begins.
+// Kept in its order until frames take it. ImGui's own callback of keys stays, for what is held when a frame begins.
 void ViewWindow::listenToInput() {
   glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
     static_cast<ViewWindow*>(glfwGetWindowUserPointer(window))->input_.emplace_back(static_cast<char32_t>(character));
@@ -197,6 +198,10 @@ void ViewWindow::listenToInput() {
   // As events have it: glfwGetCursorPos() knows where it is by now.
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
     static_cast<ViewWindow*>(glfwGetWindowUserPointer(window))->pointer_ = {x, y};
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double steps) {
+    static_cast<ViewWindow*>(glfwGetWindowUserPointer(window))
+        ->input_.emplace_back(WheelTurn{static_cast<float>(steps)});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
     auto* self = static_cast<ViewWindow*>(glfwGetWindowUserPointer(window));
@@ -209,7 +214,7 @@ void ViewWindow::listenToInput() {
   });
 }
 
-// A mouse button alone, or a key with the characters behind it: what follows waits for the next frame. Null where
+// A mouse button or the wheel alone, or a key with the characters behind it: what follows waits for the next frame. Null where
 // nothing waited: then what is held counts.
 std::optional<KeyTap> ViewWindow::takeInput() {
   ImGuiIO& io = ImGui::GetIO();
@@ -225,6 +230,9 @@ std::optional<KeyTap> ViewWindow::takeInput() {
     if (turn != nullptr && at == mouse_) {  // else there first, so that a drag has its way
       buttons_[static_cast<size_t>(turn->button)] = turn->isDown;
       *taken = {.ctrl = turn->ctrl, .shift = turn->shift};
+      input_.pop_front();
+    } else if (const auto* wheel = std::get_if<WheelTurn>(&input_.front())) {
+      io.MouseWheel += wheel->steps;
       input_.pop_front();
     } else if (turn == nullptr && (key == nullptr || key->key != before)) {  // else let go between two taps
       if (key != nullptr) {
@@ -248,6 +256,7 @@ std::optional<KeyTap> ViewWindow::takeInput() {
 void ViewWindow::handleKeys(const KeyTap& tap) {
   ImGuiIO& io = ImGui::GetIO();
   const auto pressed = [&](int key) { return tap.key == key; };
+  if (tap.key != 0 && goesOn_) rememberState();  // what went on until now is a step of its own
   // Keyboards have the character in different places.
   const bool asksForHelp = pressed(GLFW_KEY_F1) || io.InputQueueCharacters.contains('?');
   if (asksForHelp) showKeys_ = !showKeys_;

@@ -68,7 +68,11 @@ struct ButtonTurn {
   bool ctrl = false, shift = false;
 };
 
-using InputEvent = std::variant<KeyTap, ButtonTurn, char32_t>;
+struct WheelTurn {
+  float steps = 0.0f;
+};
+
+using InputEvent = std::variant<KeyTap, ButtonTurn, WheelTurn, char32_t>;
 
 // Input that a script gives in place of a person.
 struct ScriptedInput {

@@ -115,7 +115,7 @@ TEST_F(UserBiasTest, WhatItReadsItDeclares) {
   expectMistake(head + "{ Tap a = tap, b = f(a, a); return b.id1 == 0u; }", "reads b.id1; write //! channels: ");
   expectMistake(head + "{ Tap taps[2]; return taps[int(tap.z1)].z2 > 0.5; }", "reads taps.z2; write //! channels: ");
   expectMistake("float f(Tap other) { return other . z2; }\n" + head + "{ return f(tap) > 0.5; }", "reads other.z2;");
-  for (const std::string fine :
+  for (const std::string& fine :
        {head + "{ return tap.z1 > 0.5; } // tap.z2", "struct Mine { float z2; };\n" + head + "{ Mine a; return a.z2; }",
         "struct Mine { float z2; };\nfloat f(Mine tap) { return tap.z2; }\n" + head + "{ return tap.z1 > 0.5; }",
         head + "{ Tap mine = tap; mine.z2 = 0.5; return mine.z2 > tap.z1; }",

@@ -43,6 +43,51 @@ TEST(ExportOfUserCode, WhatItMayNotUseIsToldByItsLine) {
   }
 }
 
+// Gnomon's own code is folded; a user's may have effects and names where that would change it.
+TEST(ExportOfUserCode, StaysAsItIsWritten) {
+  struct Case {
+    const char *helpers, *body, *exported;
+  };
+  for (const Case& one : std::vector<Case>{
+           {"float same(float a) { return a; }", "return same(x + 1.0f) * 2.0f > 3.0f;",
+            "gnomonSame(x + 1.0f) * 2.0f > 3.0f"},
+           {"float real(int i) { return i; }", "return real(n) / 2 > 0.6f;", "gnomonReal(n) / 2 > 0.6f"},
+           {"bool yes(int i) { return true; }", "bool b = yes(n++); return b && n > 1;", "bool b = gnomonYes(n++);"},
+           {"float twice(float a, int b) { return a * 2.0f; }", "return twice(x, n++) > 0.5f && n > 1;",
+            "gnomonTwice(x, n++) > 0.5f && n > 1"},
+           {"struct Two { float one; float two; };",
+            "Two s; s.one = x; s.two = float(n++); return s.one > 0.5f && n > 1;", "s.two = float(n++);"},
+           {"struct Two { float one; float two; };",
+            "Two a; Two b; a.one = x; a.two = x; b.one = x; b.two = 0.0f; bool e = a == b; return e && a.one > 0.0f;",
+            "b.two = 0.0f;"},
+           {"struct Own { vec2 xy; float foo; };",
+            "vec3 v = vec3(x); Own s; s.xy = vec2(x); s.foo = 1.0f; v.xy = vec2(0.0f, 0.0f); return v.x + s.foo > "
+            "0.5f;",
+            "v.xy = vec2(0.0f, 0.0f);"},
+           {"", "float s = 0.0f; for (float t = 0.0f; t < 1.0f; t += 0.25f) s += x; return s > 1.0f;", "t += 0.25f"},
+           {"", "switch (1) { case 1: x += 1.0f; case 2: x += 2.0f; break; } return x > 1.0f;", "x += 2.0f;"},
+           {"", "float dead = float(n++); return n > 1;", "float dead = float(n++);"},
+           {"", "if (n++ > 0) { } return n > 1;", "n++ > 0"},
+           {"", "if ((++n > 0) && false) { x = 2.0f; } return n > 1 && x > 0.5f;", "(++n > 0) && false"},
+           {"", "float y = 1.0f; if (n > 0) { if (true) { float y = 3.0f; x += y; } x += y; } return x > 2.0f;",
+            "if (true)"},
+           {"", "if (16777217.0f == 16777216.0f) return x > 0.5f; return false;", "16777217.0f == 16777216.0f"},
+           {"", "if (kMapKind == kMapCube) return x > 0.5f; return false;", "if (0 == kGnomonMapCube)"},
+       }) {
+    const auto user = readUserBias(
+        "mine.glsl",
+        fmt::format("{}\n{} {{\n  float x = tap.z1; int n = tap.slice;\n  {}\n}}\n", one.helpers, kUserHead, one.body));
+    const std::string text = exportShader(choiceOf(kinds()[1], user->method, filters()[0], Language::Glsl)).text;
+    EXPECT_TRUE(mentions(text, one.exported)) << one.body << "\n" << text.substr(text.rfind("\nbool gnomonUserLit"));
+  }
+  EXPECT_TRUE(
+      mentions(refusal(fmt::format("{} {{\n  map.width = 5;\n  return map.width > tap.slice;\n}}\n", kUserHead)),
+               "mine.glsl:2: map.width is a constant in exported code"));
+  EXPECT_TRUE(mentions(
+      refusal(fmt::format("{} {{\n  int n = 0;\n  return mapDepth(map, n++, receiver.posL) > 0.5f;\n}}\n", kUserHead)),
+      "mine.glsl:3: an argument of mapDepth writes to a variable"));
+}
+
 TEST(ExportOfUserCode, WhatItDoesNotReadIsNamed) {
   EXPECT_EQ(
       refusal(fmt::format("{} {{\n  int i = 0;\n  do {{ ++i; }} while (i < 3);\n  return true;\n}}\n", kUserHead)),
