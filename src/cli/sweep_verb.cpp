@@ -60,8 +60,9 @@ fs::path storeOf(const SweepFlags& flags) {
 // "2/8" to 1 and 8.
 std::pair<int, int> parseShard(const std::string& text) {
   int shard = 0, shards = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%9d/%9d%c", &shard, &shards, &rest) != 2 || shard < 1 || shards < shard)
+  const bool isRead = std::sscanf(text.c_str(), "%9d/%9d", &shard, &shards) == 2;
+  // No sign, no blank, nothing behind.
+  if (!isRead || fmt::format("{}/{}", shard, shards) != text || shard < 1 || shards < shard)
     throw UsageError(fmt::format("--shard {}: write which of how many, as in 2/8", text));
   return {shard - 1, shards};
 }

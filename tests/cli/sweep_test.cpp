@@ -128,7 +128,8 @@ TEST_F(SweepCliTest, MistakesAreOneLine) {
   writeTextFile(folder_ / "bad.json", "{\"scenes\": [\"atrium\"],\n \"maps\": [\"cub\"]}");
   expectMistake("sweep @/bad.json", 1, "bad.json:2:11: maps[0]");
   expectMistake("sweep @/none.json", 1, "none.json");
-  expectMistake("sweep @/p.json --shard 3/2", 2, "as in 2/8");
+  for (const char* shard : {"3/2", "+1/2", "01/2", "1/02", "1/+2", "' 1/2'", "'1/ 2'", "1/2/", "0/2", "/", "1"})
+    expectMistake(fmt::format("sweep @/p.json --shard {}", shard), 2, "as in 2/8");
   expectMistake("sweep @/p.json --quick", 2, "--quick");
   expectMistake("sweep merge @/p.json -o @/all.db", 1, "p.json");
   expectMistake("sweep merge -o @/all.db", 2, "name the stores");

@@ -68,6 +68,39 @@ TEST(Store, KeepsACaseWholeAndNothingTwice) {
   EXPECT_FALSE(fs::exists(path.string() + "-workers"));  // nobody works on it any more
 }
 
+// Which all find none.
+TEST(Store, ProcessesThatMakeItAtOnceShareIt) {
+  for (int round = 0; round < 20; ++round) {
+    const TemporaryFolder folder;
+    int start[2];
+    ASSERT_EQ(::pipe(start), 0);
+    std::vector<pid_t> children;
+    for (int i = 0; i < 6; ++i) {
+      children.push_back(::fork());
+      if (children.back() != 0) continue;
+      int failed = 0;
+      char none = 0;
+      ::close(start[1]);
+      [[maybe_unused]] const ssize_t ended = ::read(start[0], &none, 1);  // when all are there
+      try {
+        fill(folder.path() / "s.db", {rowOf(fmt::format("k{}", i), fmt::format("s{}", i))});
+      } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        failed = 1;
+      }
+      ::_exit(failed);
+    }
+    ::close(start[0]);
+    ::close(start[1]);
+    for (const pid_t child : children) {
+      int status = 0;
+      ASSERT_EQ(::waitpid(child, &status, 0), child);
+      EXPECT_EQ(status, 0);
+    }
+    EXPECT_EQ(count(Store(folder.path() / "s.db", sql::Open::Existing), "results"), 6);
+  }
+}
+
 TEST(Store, NewContentsSupersedeThoseOfTheirSlotAndBack) {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "s.db";

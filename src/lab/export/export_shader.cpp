@@ -468,8 +468,12 @@ ExportedShader printed(const ExportChoice& choice, const ExportedScene& facts, P
   std::string code = code::printProgram(program, print);
   if (choice.language == Language::GlslEs && code.find("gnomonFindLsb(") != std::string::npos)
     exported.text +=
-        "\n// findLSB of later versions; `bits` has one.\nint gnomonFindLsb(uint bits) {\n  int place = 0;\n  while "
-        "(((bits >> uint(place)) & 1u) == 0u) ++place;\n  return place;\n}\n";
+        "\n// findLSB of later versions.\nint gnomonFindLsb(uint bits) {\n  int place = bits == 0u ? -1 : 0;\n  while "
+        "(place >= 0 && ((bits >> uint(place)) & 1u) == 0u) ++place;\n  return place;\n}\n";
+  if (choice.language == Language::Msl && code.find("gnomonFindLsb(") != std::string::npos)
+    exported.text +=
+        "\n// Of the lowest bit; -1 where there is none.\n"
+        "inline int gnomonFindLsb(uint bits) { return bits == 0u ? -1 : int(ctz(bits)); }\n";
   exported.text += code;
   return exported;
 }

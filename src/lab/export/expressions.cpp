@@ -119,7 +119,17 @@ class Types {
     if (e.text == "all" || e.text == "any") return "bool";
     std::vector<std::string> types;
     for (const Expr& kid : e.kids) types.push_back(of(kid));
-    return largest(types);
+    return ofBits(e.text, largest(types));
+  }
+
+  // Of uintBitsToFloat and such: as many of another kind.
+  static std::string ofBits(const std::string& function, const std::string& type) {
+    const bool toFloat = function == "uintBitsToFloat" || function == "intBitsToFloat";
+    const bool toUint = function == "floatBitsToUint";
+    if (!toFloat && !toUint && function != "floatBitsToInt" && function != "findLSB") return type;
+    const int count = componentCount(type);
+    if (count == 0) return toFloat ? "float" : toUint ? "uint" : "int";
+    return (toFloat ? "vec" : toUint ? "uvec" : "ivec") + std::to_string(count);
   }
 
   std::string ofBinary(const Expr& e) const {

@@ -47,7 +47,7 @@ const Names& mslNames() {
                               {"uvec4", "uint4"},
                               {"mat4", "float4x4"},
                               {"inversesqrt", "rsqrt"},
-                              {"findLSB", "ctz"},
+                              {"findLSB", "gnomonFindLsb"},
                               {"uintBitsToFloat", "as_type<float>"},
                               {"floatBitsToUint", "as_type<uint>"}};
   return names;
@@ -78,6 +78,7 @@ bool isReserved(Language language, const std::string& name) {
       "RWTexture3D SamplerComparisonState SamplerState StructuredBuffer SubpassInput SubpassInputMS Texture1D "
       "Texture1DArray Texture2D Texture2DArray Texture2DMS Texture2DMSArray Texture3D TextureBuffer TextureCube "
       "TextureCubeArray TriangleStream "
+      "int16_t uint16_t int32_t uint32_t int64_t uint64_t float16_t float32_t float64_t "
       "frac lerp rsqrt firstbitlow asfloat asuint");
   // Of Metal, what else C++14 has, and functions that are printed for GLSL's.
   static const std::set<std::string> msl = wordsOf(
@@ -85,14 +86,25 @@ bool isReserved(Language language, const std::string& name) {
       "noexcept alignas alignof static_assert metal visible ray_data "
       "and and_eq bitand bitor compl not not_eq or or_eq xor xor_eq char16_t char32_t wchar_t thread_local "
       "typeid "
+      "uchar ushort ulong size_t ptrdiff_t int8_t uint8_t int16_t uint16_t int32_t uint32_t int64_t uint64_t bfloat "
+      "NULL NAN INFINITY HUGE_VAL HUGE_VALF MAXFLOAT MAXHALF CHAR_BIT CHAR_MAX CHAR_MIN SCHAR_MAX SCHAR_MIN SHRT_MAX "
+      "SHRT_MIN INT_MAX INT_MIN LONG_MAX LONG_MIN UCHAR_MAX USHRT_MAX UINT_MAX ULONG_MAX assert "
       "as_type ctz rsqrt");
+  const auto isMetalConstant = [&] {
+    const auto starts = [&](const char* stem) { return name.starts_with(stem); };
+    return starts("FLT_") || starts("HALF_") || starts("DBL_") || starts("FP_") || starts("M_");
+  };
   if (language != Language::Hlsl && language != Language::Msl) return false;
+  if (language == Language::Msl && isMetalConstant()) return true;
   return both.contains(name) || (language == Language::Hlsl ? hlsl : msl).contains(name);
 }
 
 // "float1", "int2x3"
 bool isShapedType(const std::string& name) {
-  for (const char* base : {"bool", "int", "uint", "float", "half", "double"}) {
+  for (const char* base :
+       {"bool",     "int",     "uint",     "float",      "half",       "double",    "char",      "uchar",     "short",
+        "ushort",   "long",    "ulong",    "min10float", "min16float", "min12int",  "min16int",  "min16uint", "int16_t",
+        "uint16_t", "int32_t", "uint32_t", "int64_t",    "uint64_t",   "float16_t", "float32_t", "float64_t"}) {
     if (!name.starts_with(base)) continue;
     const std::string shape = name.substr(std::string_view(base).size());
     if (!shape.empty() && shape.find_first_not_of("1234x") == std::string::npos) return true;
@@ -102,6 +114,12 @@ bool isShapedType(const std::string& name) {
 
 bool startsWithDigit(const std::string& text) {
   return !text.empty() && (std::isdigit(static_cast<unsigned char>(text[0])) != 0 || text[0] == '.');
+}
+
+// Behind a backslash at the end of a line the comment would go on.
+std::string comment(const std::string& text) {
+  const size_t last = text.find_last_not_of(" \t\r\f\v");
+  return "//" + (last != std::string::npos && text[last] == '\\' ? text.substr(0, last + 1) + "." : text);
 }
 
 class Printer {
@@ -127,7 +145,7 @@ class Printer {
       case Expr::Kind::Call:
         return call(e);
       case Expr::Kind::Prefix:
-        return e.text + expr(e.kids[0]);
+        return prefixed(e.text, expr(e.kids[0]));
       case Expr::Kind::Postfix:
         return expr(e.kids[0]) + e.text;
       case Expr::Kind::Binary:
@@ -151,7 +169,7 @@ class Printer {
       if (found != options_.definitions.end()) return found->second;
     }
     std::string text = commentLines(publicComment(d.comments));
-    const std::string trailing = d.trailing.empty() ? "" : "  //" + d.trailing;
+    const std::string trailing = d.trailing.empty() ? "" : "  " + comment(d.trailing);
     if (d.kind == Decl::Kind::Constant) {
       const char* qualifier = options_.language == Language::Hlsl  ? "static const"
                               : options_.language == Language::Msl ? "constant"
@@ -176,6 +194,12 @@ class Printer {
   }
 
  private:
+  // "- -x", which is not "--x".
+  static std::string prefixed(const std::string& sign, const std::string& of) {
+    const bool isOfSign = (sign == "-" || sign == "+") && of.starts_with(sign);
+    return sign + (isOfSign ? " " : "") + of;
+  }
+
   std::string call(const Expr& e) const {
     const bool isOfFloats = e.text == "vec2" || e.text == "vec3" || e.text == "vec4";
     const bool cLike = options_.language == Language::Hlsl || options_.language == Language::Msl;
@@ -193,6 +217,9 @@ class Printer {
     }
     if (e.text == "uintBitsToFloat" && options_.language == Language::Msl && e.kids[0].kind == Expr::Kind::Member)
       return fmt::format("as_type<float3>({})", expr(e.kids[0]));
+    // HLSL's is a whole number.
+    if (e.text == "sign" && options_.language == Language::Hlsl && !options_.names.contains(e.text))
+      return "(1.0f * sign(" + expr(e.kids[0]) + "))";
     // A variable may have a function's name, which is not meant where it is called.
     const auto function = options_.names.find(e.text);
     std::string text = (function != options_.names.end() ? function->second : name(e.text)) + "(";
@@ -277,7 +304,7 @@ class Printer {
   std::string statement(const Stmt& stmt, int indent) const {
     const std::string pad(static_cast<size_t>(indent), ' ');
     std::string text = commentLines(publicComment(stmt.comments), indent);
-    const std::string trailing = stmt.trailing.empty() ? "" : "  //" + stmt.trailing;
+    const std::string trailing = stmt.trailing.empty() ? "" : "  " + comment(stmt.trailing);
     if (isSimple(stmt)) return text + wrappedCode(pad + simple(stmt) + trailing, indent) + "\n";
     switch (stmt.kind) {
       case Stmt::Kind::Block:
@@ -345,7 +372,7 @@ std::string variableNameIn(Language language, const std::string& name) {
 
 std::string commentLines(const std::vector<std::string>& lines, int indent) {
   std::string text;
-  for (const std::string& line : lines) text += std::string(static_cast<size_t>(indent), ' ') + "//" + line + "\n";
+  for (const std::string& line : lines) text += std::string(static_cast<size_t>(indent), ' ') + comment(line) + "\n";
   return text;
 }
 

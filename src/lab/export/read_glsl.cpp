@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -172,6 +173,7 @@ class Parser {
     want("(");
     while (!is(")")) {
       Param param;
+      while (is("in") || is("const")) takeText();
       if (is("out") || is("inout")) param.qualifier = takeText();
       param.type = wantName();
       param.name = wantName();
@@ -313,19 +315,31 @@ class Parser {
     want("{");
     while (!is("}")) {
       Stmt::Case one;
+      bool isDefault = false;
       while (is("case") || is("default")) {
-        if (takeText() == "case") one.labels.push_back(parseTernary());
+        if (takeText() == "case")
+          one.labels.push_back(parseTernary());
+        else
+          isDefault = true;
         want(":");
       }
-      while (!is("case") && !is("default") && !is("}")) {
-        const bool block = is("{");
-        for (Stmt& inner : block ? parseBody() : std::vector<Stmt>{parseStmt()}) one.body.push_back(std::move(inner));
-      }
+      if (isDefault) one.labels.clear();
+      while (!is("case") && !is("default") && !is("}")) one.body.push_back(parseStmt());
+      openBlock(one.body);
       stmt.cases.push_back(std::move(one));
     }
     want("}");
     inner_.clear();
     last_.clear();
+  }
+
+  // Of a case: its braces go where all but a break is within them.
+  static void openBlock(std::vector<Stmt>& body) {
+    const bool isAll = body.size() == 1 || (body.size() == 2 && body[1].kind == Stmt::Kind::Break);
+    if (!isAll || body[0].kind != Stmt::Kind::Block) return;
+    std::vector<Stmt> within = std::move(body[0].body);
+    body.erase(body.begin());
+    body.insert(body.begin(), std::make_move_iterator(within.begin()), std::make_move_iterator(within.end()));
   }
 
   static Expr made(Expr::Kind kind, std::string text, std::vector<Expr> kids, int line) {

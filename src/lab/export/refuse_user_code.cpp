@@ -147,6 +147,17 @@ class Refusal {
     });
   }
 
+  // A declaration of a case is printed in braces of the case's.
+  void ofCases() const {
+    for (const Decl& decl : program_.decls)
+      if (decl.file == kUserBiasFile)
+        eachStmt(decl.body, [&](const Stmt& stmt) {
+          for (size_t i = 0; i < stmt.cases.size(); ++i)
+            for (const Stmt& declaration : stmt.cases[i].body)
+              for (const Declarator& declared : declaration.names) checkLaterCases(stmt, i, declared.name);
+        });
+  }
+
   void ofUntranslated() const {
     if (const auto found = firstUntranslated(program_, language_))
       failAt(found->line > 0 ? found->line : lineOf(words_, found->word), found->message);
@@ -221,10 +232,55 @@ class Refusal {
   void checkLocal(const std::string& type, const std::string& name, std::map<std::string, std::string>& printed) const {
     checkName(type, name, type);
     checkPrinted(type, name, printed);
+    const Decl* same = program_.find(name);
+    if (same != nullptr && same->kind == Decl::Kind::Struct)
+      failAt(lineOfDeclared(words_, type, name), fmt::format("{} is a structure's name, too; rename it", name));
     const bool isPrefixed = name.starts_with("gnomon") || name.starts_with("Gnomon") || name.starts_with("kGnomon");
     if (isPrefixed || (name == "textures" && language_ == Language::Msl))
       failAt(lineOfDeclared(words_, type, name),
              fmt::format("'{}' may be another's name in exported code; rename it", name));
+  }
+
+  void checkLaterCases(const Stmt& of, size_t i, const std::string& name) const {
+    for (++i; i < of.cases.size(); ++i)
+      if (const Expr* found = firstRead(of.cases[i].body, name).read)
+        failAt(found->line, fmt::format("{} is of another case; declare it before the switch", name));
+  }
+
+  struct Reading {
+    const Expr* read = nullptr;
+    bool isDeclared = false;  // first
+  };
+  static const Expr* firstRead(const std::optional<Expr>& e, const std::string& name) {
+    return e ? firstRead(*e, name) : nullptr;
+  }
+  static const Expr* firstRead(const Expr& e, const std::string& name) {
+    if (e.isAtom(name)) return &e;
+    for (const Expr& kid : e.kids)
+      if (const Expr* found = firstRead(kid, name)) return found;
+    return nullptr;
+  }
+  // Where a name is read that the statements do not declare themselves.
+  static Reading firstRead(const std::vector<Stmt>& body, const std::string& name) {
+    for (const Stmt& stmt : body) {
+      for (const Declarator& declared : stmt.names) {
+        if (const Expr* found = firstRead(declared.value, name)) return {.read = found};
+        if (declared.name == name) return {.isDeclared = true};
+      }
+      const bool isLoop = stmt.kind == Stmt::Kind::For;
+      if (isLoop) {
+        const Reading first = firstRead(stmt.other, name);
+        if (first.read != nullptr) return first;
+        if (first.isDeclared) continue;
+      }
+      if (const Expr* found = firstRead(stmt.expr, name)) return {.read = found};
+      if (const Expr* found = firstRead(stmt.step, name)) return {.read = found};
+      for (const std::vector<Stmt>* within : {&stmt.body, &stmt.other})
+        if (const Expr* found = firstRead(*within, name).read) return {.read = found};
+      for (const Stmt::Case& one : stmt.cases)
+        if (const Expr* found = firstRead(one.body, name).read) return {.read = found};
+    }
+    return {};
   }
 
   void eachUserExpr(const std::function<void(const Expr&)>& visit) const {
@@ -265,6 +321,7 @@ void refuseUserCode(const Program& program, const UserBias& user, const Known& k
   refusal.ofEffects(known);
   refusal.ofKnobs();
   refusal.ofBuiltIns();
+  refusal.ofCases();
   refusal.ofUntranslated();
 }
 

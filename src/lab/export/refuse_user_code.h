@@ -17,6 +17,7 @@ namespace gnomon::code {
 //   - declares a name that simplify() folds wherever it stands, whatever it is: `kind`, `reach`;
 //   - defines a function twice, since exported code has no overloads;
 //   - declares a name that is another's once it has export's prefix, or the "_" behind a word of the language's own;
+//   - calls a variable as a structure is called, or uses one in another case of the switch than declares it;
 //   - does anything with knobs but read params.knobs[kUserWidth];
 //   - reads a variable of the calling shader: `gl_FragCoord`, `mapSlices`;
 //   - has what is not translated to the language, or would mean something else there (untranslated.h).

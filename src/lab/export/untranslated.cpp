@@ -3,6 +3,7 @@
 #include "lab/export/expressions.h"
 #include "shadow/user_bias.h"
 
+#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -60,6 +61,39 @@ bool isDouble(const Expr& e) {
   return e.kind == Expr::Kind::Atom && isNumber(e) && (e.text.ends_with("lf") || e.text.ends_with("LF"));
 }
 
+// Of built-in functions: those that take whole numbers, too, and those of which each argument has a type of its own.
+bool takesWholeNumbers(const std::string& function) {
+  static const std::set<std::string> names = {"abs", "clamp", "max", "min", "sign"};
+  return names.contains(function);
+}
+bool takesAnything(const std::string& function) {
+  static const std::set<std::string> names = {"all", "any", "findLSB", "floatBitsToUint", "uintBitsToFloat"};
+  return names.contains(function);
+}
+
+bool isWhole(const std::string& type) {
+  return type == "int" || type == "uint" || type.starts_with("ivec") || type.starts_with("uvec");
+}
+bool isFloats(const std::string& type) {
+  return type == "float" || (isVector(type) && type.starts_with("vec"));
+}
+
+// "s.a[]" of s.a[i]; empty of what is no variable.
+std::string pathOf(const Expr& e) {
+  if (e.kind == Expr::Kind::Atom) return isNumber(e) ? "" : e.text;
+  if (e.kind == Expr::Kind::Paren) return pathOf(e.kids[0]);
+  if (e.kind == Expr::Kind::Member) return pathOf(e.kids[0]) + "." + e.text;
+  return e.kind == Expr::Kind::Index ? pathOf(e.kids[0]) + "[]" : "";
+}
+
+// Of paths: the same, or one within the other.
+bool overlap(const std::string& a, const std::string& b) {
+  const auto holds = [](const std::string& of, const std::string& part) {
+    return part.starts_with(of) && (part.size() == of.size() || part[of.size()] == '.' || part[of.size()] == '[');
+  };
+  return !a.empty() && !b.empty() && (holds(a, b) || holds(b, a));
+}
+
 bool isSwizzleOf(const Expr& e, size_t count) {
   return e.kind == Expr::Kind::Member && e.text.size() >= count &&
          e.text.find_first_not_of("xyzw") == std::string::npos;
@@ -105,10 +139,13 @@ class Search {
     eachUserType([&](const std::string& type) {
       if (!type.empty() && !types.contains(type)) tell(0, type);
     });
+    checkDeclarations();
     eachUserExpr([&](const Expr& e, const Variables& variables) {
       if (isDouble(e)) tell(e.line, e.text);
       checkComparison(e, variables);
+      checkConstructor(e);
       if (language_ == Language::Hlsl) checkForHlsl(e, variables);
+      if (language_ == Language::Msl) checkForMetal(e, variables);
       if (e.kind != Expr::Kind::Call) return;
       if (!types.contains(e.text) && !functions.contains(e.text)) tell(e.line, e.text);
       if (e.text == "atan" && e.kids.size() != 1) tell(e.line, "atan of two numbers");
@@ -185,6 +222,72 @@ class Search {
     }
   }
 
+  // C++ takes a variable's name for its own from where it stands, GLSL from behind its value.
+  void checkDeclarations() {
+    for (const Decl& decl : program_.decls)
+      if (decl.file == kUserBiasFile)
+        eachStmt(decl.body, [&](const Stmt& stmt) {
+          for (const Declarator& declared : stmt.names)
+            if (declared.value) checkInitializer(stmt.type, declared.name, *declared.value);
+        });
+  }
+
+  void checkInitializer(const std::string& type, const std::string& name, const Expr& value) {
+    if (value.kind == Expr::Kind::Call && value.text == type) initializers_.insert(&value);
+    checkOwnName(name, value);
+  }
+
+  void checkOwnName(const std::string& name, const Expr& e) {
+    if (e.isAtom(name)) tell(e.line, fmt::format("another {0} in the value that it begins with", name), "rename one");
+    const bool isBuiltIn = e.kind == Expr::Kind::Call && e.text == name && program_.find(name) == nullptr;
+    if (isBuiltIn && nameIn(language_, name) == variableNameIn(language_, name))
+      tell(e.line, fmt::format("a variable {0} beside the function {0}", name), "rename it");
+    for (const Expr& kid : e.kids) checkOwnName(name, kid);
+  }
+
+  // HLSL and Metal have none of structures; what a variable begins with is written in braces.
+  void checkConstructor(const Expr& e) {
+    const Decl* decl = e.kind == Expr::Kind::Call ? program_.find(e.text) : nullptr;
+    if (decl != nullptr && decl->kind == Decl::Kind::Struct && !initializers_.contains(&e))
+      tell(e.line, fmt::format("{}(...) but as what a declaration begins with", e.text),
+           fmt::format("declare a variable: {} name = {}(...);", e.text, e.text));
+  }
+
+  // Its out arguments are references, and its functions have a form for floats and one for whole numbers.
+  void checkForMetal(const Expr& e, const Variables& variables) {
+    if (e.kind != Expr::Kind::Call) return;
+    if (const Decl* called = program_.find(e.text)) {
+      checkReferences(e, *called, variables);
+    } else if (translatedFunctions().contains(e.text) && !takesAnything(e.text)) {
+      bool hasFloats = false, hasWhole = false;
+      for (const Expr& kid : e.kids) {
+        const std::string type = typeOf(kid, variables, program_);
+        hasFloats = hasFloats || isFloats(type);
+        hasWhole = hasWhole || isWhole(type);
+      }
+      if (hasWhole && (hasFloats || !takesWholeNumbers(e.text)))
+        tell(e.line, fmt::format("{} of {}whole numbers", e.text, hasFloats ? "floats and " : ""),
+             "write 0.0f for 0, float(i) for i");
+    }
+  }
+
+  void checkReferences(const Expr& e, const Decl& called, const Variables& variables) {
+    std::vector<std::string> paths;
+    for (size_t i = 0; i < std::min(e.kids.size(), called.params.size()); ++i) {
+      if (called.params[i].qualifier.empty()) continue;
+      const Expr& argument = e.kids[i];
+      const bool isPart = argument.kind == Expr::Kind::Member || argument.kind == Expr::Kind::Index;
+      if (isPart && isVector(typeOf(argument.kids[0], variables, program_)))
+        tell(e.line, fmt::format("a component as the out argument {} of {}", called.params[i].name, e.text),
+             "give it a variable");
+      const std::string path = pathOf(argument);
+      for (const std::string& other : paths)
+        if (overlap(path, other))
+          tell(e.line, fmt::format("one variable twice as an out argument of {}", e.text), "give it two");
+      paths.push_back(path);
+    }
+  }
+
   // HLSL evaluates all of `&&`, `||` and `?:`, whatever is on the left. Its `*` multiplies matrices number by number.
   void checkForHlsl(const Expr& e, const Variables& variables) {
     if (e.kind == Expr::Kind::Ternary || e.text == "&&" || e.text == "||") {
@@ -196,6 +299,9 @@ class Search {
                    : fmt::format("a right side of {} that writes to a variable (HLSL always evaluates it)", e.text),
                "write it with if");
     }
+    if (e.kind == Expr::Kind::Call && e.text == "sign" && program_.find(e.text) == nullptr && e.kids.size() == 1 &&
+        isWhole(typeOf(e.kids[0], variables, program_)))
+      tell(e.line, "sign of whole numbers", "write clamp(i, -1, 1)");
     if (e.kind != Expr::Kind::Binary || (e.text != "*" && e.text != "*=")) return;
     const std::string left = typeOf(e.kids[0], variables, program_), right = typeOf(e.kids[1], variables, program_);
     if ((isMatrix(left) && !isScalar(right)) || (isMatrix(right) && !isScalar(left)))
@@ -205,6 +311,7 @@ class Search {
   const Program& program_;
   Language language_;
   std::optional<Untranslated> found_;
+  std::set<const Expr*> initializers_;  // structures' constructors
 };
 
 }  // namespace

@@ -5,6 +5,9 @@
 
 #include <sqlite3.h>
 
+#include <chrono>
+#include <thread>
+
 #include <fmt/format.h>
 
 namespace gnomon::sql {
@@ -61,6 +64,7 @@ Database::Database(const std::filesystem::path& path, Open how) : path_(path) {
 }
 
 void Database::setPatience(int ms) {
+  patienceMs_ = ms;
   sqlite3_busy_timeout(database_.get(), ms);
 }
 
@@ -72,6 +76,17 @@ void Database::fail(int code) const {
 void Database::execute(const std::string& statements) {
   const int code = sqlite3_exec(database_.get(), statements.c_str(), nullptr, nullptr, nullptr);
   if (code != SQLITE_OK) fail(code);
+}
+
+void Database::useWriteAheadLog() {
+  const auto begun = std::chrono::steady_clock::now();
+  for (;;) {
+    const int code = sqlite3_exec(database_.get(), "PRAGMA journal_mode=WAL", nullptr, nullptr, nullptr);
+    if (code == SQLITE_OK) return;
+    const bool isPatient = std::chrono::steady_clock::now() - begun < std::chrono::milliseconds(patienceMs_);
+    if ((code & 0xff) != SQLITE_BUSY || !isPatient) fail(code);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 }
 
 int64_t Database::lastRowId() const {

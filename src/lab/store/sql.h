@@ -88,6 +88,8 @@ class Database {
   const std::filesystem::path& path() const { return path_; }
 
   void execute(const std::string& statements);
+  // PRAGMA journal_mode=WAL, for which SQLite itself does not wait.
+  void useWriteAheadLog();
   Statement prepare(std::string_view sql) const { return {*this, sql}; }
   int64_t lastRowId() const;
   // Of the whole statement's first row; nothing where there is none.
@@ -102,6 +104,7 @@ class Database {
     void operator()(sqlite3* database) const;
   };
   std::filesystem::path path_;
+  int patienceMs_ = 0;
   std::unique_ptr<sqlite3, Close> database_;
 };
 

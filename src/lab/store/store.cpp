@@ -160,15 +160,18 @@ void checkStorePath(const std::filesystem::path& path, sql::Open how) {
 }
 
 Store::Store(const std::filesystem::path& path, sql::Open how) : database_((checkStorePath(path, how), path), how) {
-  const int64_t version = database_.integerOf("PRAGMA user_version");
+  int64_t version = database_.integerOf("PRAGMA user_version");
   const bool isNew =
       version == 0 && how == sql::Open::Create && database_.integerOf("SELECT count(*) FROM sqlite_master") == 0;
+  // Another process may have made it in between.
+  if (!isNew && version == 0) version = database_.integerOf("PRAGMA user_version");
   if (!isNew && version != kStoreVersion)
     throw fileError(path.string(),
                     version == 0 ? "is a database of something else" : fmt::format("has version {}", version),
                     fmt::format("name a store of gnomon sweep, version {}", kStoreVersion));
   if (how == sql::Open::ReadOnly) return;
-  database_.execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
+  database_.useWriteAheadLog();
+  database_.execute("PRAGMA synchronous=NORMAL");
   if (!isNew) return;
   sql::Transaction transaction(database_);
   if (database_.integerOf("PRAGMA user_version") == 0) {  // else another process was faster

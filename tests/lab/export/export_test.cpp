@@ -89,6 +89,17 @@ std::string compiled(Language language, const std::string& text) {
   return program.link(messages) ? "" : program.getInfoLog();
 }
 
+// Of what the C++ compiler parses, with a stand-in for Metal's library.
+std::string metalErrors(const std::string& text) {
+  const test::TemporaryFolder folder;
+  writeTextFile(folder.path() / "all.cpp", text);
+  const std::string command = fmt::format("{} -std=c++14 -fsyntax-only -w -I {}/export/metal {} 2>{}", GNOMON_CXX,
+                                          test::inSource(GNOMON_TEST_FOLDER), (folder.path() / "all.cpp").string(),
+                                          (folder.path() / "errors").string());
+  if (std::system(command.c_str()) == 0) return "";
+  return "failed: " + readFile(folder.path() / "errors").substr(0, 2000);
+}
+
 // GLSL, GLSL ES and HLSL by glslang. Apple's compiler there is none here, but Metal is C++14: parsed by the C++
 // compiler, with a stand-in for its library.
 TEST(Export, CompilesForEveryMapBiasAndFilter) {
@@ -109,12 +120,7 @@ TEST(Export, CompilesForEveryMapBiasAndFilter) {
         metal += fmt::format("namespace n{} {{\n{}}}\n", count++, text);
       }
   EXPECT_EQ(count, kinds().size() * biasMethods().size() * filters().size());
-  const test::TemporaryFolder folder;
-  writeTextFile(folder.path() / "all.cpp", metal);
-  const std::string command = fmt::format("{} -std=c++14 -fsyntax-only -w -I {}/export/metal {} 2>{}", GNOMON_CXX,
-                                          test::inSource(GNOMON_TEST_FOLDER), (folder.path() / "all.cpp").string(),
-                                          (folder.path() / "errors").string());
-  EXPECT_EQ(std::system(command.c_str()), 0) << readFile(folder.path() / "errors").substr(0, 2000);
+  EXPECT_EQ(metalErrors(metal), "");
 }
 
 std::unique_ptr<const UserBias> sampleBias(const char* name) {
@@ -212,7 +218,14 @@ TEST(Export, WordsOfALanguageAreNoNamesThere) {
                            "export",
                            "typeid",
                            "as_type",
-                           "ctz"}) {
+                           "ctz",
+                           "int64_t",
+                           "float16_t2",
+                           "NAN",
+                           "INFINITY",
+                           "INT_MAX",
+                           "FLT_MAX",
+                           "M_PI_F"}) {
     chain += fmt::format(" float {} = {} + 1.0f;", word, last);
     last = word;
   }
@@ -224,8 +237,84 @@ TEST(Export, WordsOfALanguageAreNoNamesThere) {
   EXPECT_TRUE(mentions(textOf(Language::Msl), "float device_ = "));
   EXPECT_TRUE(mentions(textOf(Language::Msl), "float and_ = "));
   EXPECT_TRUE(mentions(textOf(Language::Msl), "float as_type_ = "));
+  EXPECT_TRUE(mentions(textOf(Language::Hlsl), "float int64_t_ = "));
+  for (const char* word : {"NAN", "INFINITY", "INT_MAX", "FLT_MAX", "M_PI_F"})
+    EXPECT_TRUE(mentions(textOf(Language::Msl), fmt::format("float {}_ = ", word)));
   EXPECT_TRUE(mentions(textOf(Language::Glsl), "float matrix = "));
   EXPECT_EQ(compiled(Language::Hlsl, textOf(Language::Hlsl)), "");
+}
+
+// A user's file in a language; it is expected to compile there.
+std::string exportedOf(const std::string& glsl, Language language) {
+  const auto user = readUserBias("mine.glsl", glsl);
+  const std::string text = exportShader(choiceOf(kinds()[1], user->method, filters()[0], language)).text;
+  EXPECT_EQ(language == Language::Msl ? metalErrors(text) : compiled(language, text), "") << text;
+  return text;
+}
+
+std::string exportedBody(const std::string& body, Language language) {
+  return exportedOf(
+      fmt::format("{} {{\n  float x = tap.z1; int n = tap.slice;\n{}\n  return x > 0.5f; }}\n", kUserHead, body),
+      language);
+}
+
+constexpr Language kLanguages[] = {Language::Glsl, Language::GlslEs, Language::Hlsl, Language::Msl};
+
+TEST(Export, SignsBesideSignsStayTwo) {
+  for (const Language language : kLanguages) {
+    const std::string text = exportedOf(
+        fmt::format(
+            "#define NEG -1.0f\n{} {{ float x = tap.z1; float y = - -x; x += + +y; x *= -NEG; x = y - -x; return "
+            "- - -x > y; }}\n",
+            kUserHead),
+        language);
+    for (const char* printed : {"- -x", "+ +y", "- -1.0f", "y - -x", "- - -x"})
+      EXPECT_TRUE(mentions(text, printed)) << printed;
+  }
+}
+
+TEST(Export, NoCommentGoesOnBehindABackslash) {
+  for (const Language language : kLanguages) {
+    const std::string text =
+        exportedOf(fmt::format("// head \\ \n\n//! sentence: A folder C:\\ \n// of it \\\t\n{} {{\n  // a folder C:\\ "
+                               "\n  float x = tap.z1;  // behind "
+                               "\\ \n  if (x > 1.0f) {{  // within \\ \n    x = 1.0f;\n  }}\n  return x > 0.5f; }}\n",
+                               kUserHead),
+                   language);
+    EXPECT_FALSE(std::regex_search(text, std::regex("\\\\[ \t]*\n"))) << text;
+    EXPECT_TRUE(mentions(text, "// a folder C:\\"));
+  }
+}
+
+TEST(Export, CasesKeepWhatTheyHave) {
+  for (const Language language : kLanguages) {
+    const std::string labels = exportedBody(
+        "  switch (n) { case 0: x = 1.0f; break; case 1: default: x = 2.0f; break; }\n"
+        "  switch (n) { default: case 3: x += 3.0f; break; }",
+        language);
+    EXPECT_EQ(std::regex_replace(labels, std::regex("default:\\n *x \\+?= [23]"), "#").find("default:"),
+              std::string::npos)
+        << labels;
+    EXPECT_TRUE(mentions(labels, "default:\n      x = 2.0f;")) << labels;
+    EXPECT_TRUE(mentions(labels, "default:\n      x += 3.0f;")) << labels;
+    exportedBody(
+        "  switch (n) {\n  case 0: { float t = 1.0f; x += t; } { float t = 2.0f; x += t; } break;\n"
+        "  case 1: x = 1.0f; { float t = 1.0f; x += t; } break;\n"
+        "  case 2: { float t = 1.0f; x += t; } break;\n  case 3: float t = 2.0f; x = t; break;\n  }",
+        language);
+  }
+}
+
+// Which HLSL counts as a whole number.
+TEST(Export, SignsAreFloats) {
+  EXPECT_TRUE(mentions(exportedBody("  x = sign(x) / 2.0f;", Language::Hlsl), "x = (1.0f * sign(x)) / 2.0f;"));
+  EXPECT_TRUE(mentions(exportedBody("  x = sign(x) / 2.0f;", Language::Glsl), "x = sign(x) / 2.0f;"));
+}
+
+// GLSL's is -1 where there is no bit.
+TEST(Export, TheLowestBitOfNoneIsMinusOne) {
+  for (const Language language : {Language::GlslEs, Language::Msl})
+    EXPECT_TRUE(mentions(exportedBody("  x += float(findLSB(uint(n)));", language), "bits == 0u ? -1 :"));
 }
 
 // Whole, as a reader would paste it; the version and the extension come from the preamble of our shaders.

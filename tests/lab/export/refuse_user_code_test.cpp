@@ -5,6 +5,7 @@
 #include "shadow/user_bias.h"
 #include "tests/lab/export/what_to_export.h"
 
+#include <algorithm>
 #include <regex>
 
 #include <fmt/format.h>
@@ -421,6 +422,104 @@ TEST(ExportOfUserCode, OverloadsAreRefused) {
   const std::string said = refusal(std::string("float f(float a) { return a; }\nfloat f(int a) { return 2.0f; }\n") +
                                    kUserHead + " { return f(1) > tap.z1; }\n");
   EXPECT_EQ(said, "mine.glsl:2: f is defined twice; exported code has no overloads, rename one");
+}
+
+// What is refused in some languages by the line of a body, and goes through as GLSL.
+void expectRefused(const std::string& before, const std::string& line, const std::vector<Language>& languages,
+                   const std::string& what) {
+  const std::string file =
+      fmt::format("{}{} {{ float x = tap.z1; int n = tap.slice; vec3 v = receiver.posL;\n{}\n  return x > v.y; }}\n",
+                  before, kUserHead, line);
+  const auto expected = fmt::format("mine.glsl:{}: ", 2 + std::count(before.begin(), before.end(), '\n'));
+  for (const Language language : languages) {
+    const std::string said = refusal(file, language);
+    EXPECT_TRUE(said.starts_with(expected) && mentions(said, what)) << line << ": " << said;
+  }
+  EXPECT_EQ(refusal(file), "") << line;
+}
+
+void expectTaken(const std::string& before, const std::string& line) {
+  for (const Language language : {Language::Glsl, Language::GlslEs, Language::Hlsl, Language::Msl})
+    EXPECT_EQ(refusal(fmt::format("{}{} {{ float x = tap.z1; int n = tap.slice; vec3 v = receiver.posL;\n{}\n  return "
+                                  "x > v.y; }}\n",
+                                  before, kUserHead, line),
+                      language),
+              "")
+        << line;
+}
+
+const std::vector<Language> kCLike = {Language::Hlsl, Language::Msl};
+
+TEST(ExportOfUserCode, ADeclarationOfOneCaseIsNotUsedInAnother) {
+  const auto file = [](const char* cases) {
+    return fmt::format(
+        "{} {{ float x = tap.z1; switch (tap.slice) {{ case 0: float y = x; x = y; break;\n{}\n }}\n return "
+        "x > 0.5f; }}\n",
+        kUserHead, cases);
+  };
+  for (const Language language : {Language::Glsl, Language::GlslEs, Language::Hlsl, Language::Msl}) {
+    for (const char* cases : {"case 1: y = 3.0f; x = y;", "case 1: { float y = 1.0f; x = y; } y = 2.0f; x = y;"}) {
+      const std::string said = refusal(file(cases), language);
+      EXPECT_TRUE(said.starts_with("mine.glsl:2: y is of another case; declare it before the switch")) << said;
+    }
+    EXPECT_EQ(refusal(file("case 1: { float y = 1.0f; x = y; } break; default: x = 1.0f;"), language), "");
+  }
+}
+
+TEST(ExportOfUserCode, AVariableInItsOwnInitializerIsToldByItsLine) {
+  expectRefused("", "{ float x = x * 2.0f; v.x = x; }", kCLike, "x in the value that it begins with");
+  expectRefused("", "float distance = distance(v, v); v.x = distance;", kCLike,
+                "distance beside the function distance");
+  expectTaken("float mine(float a) { return a + 1.0f; }\n",
+              "float frac = fract(x); float mine = mine(frac); x = mine;");
+}
+
+TEST(ExportOfUserCode, WhatMetalsReferencesCannotHoldIsToldByItsLine) {
+  const std::string before =
+      "struct Mine { float a; float b[2]; vec2 c; };\nvoid inc(inout float a) { a += 1.0f; }\n"
+      "void swap(inout float a, out float b) { b = a; a = 0.0f; }\nvoid both(float a, out float b) { b = a; }\n";
+  for (const char* line : {"inc(v.y);", "inc(v[1]);", "Mine m; m.c = v.xy; inc(m.c.x); x = m.c.x;"})
+    expectRefused(before, line, {Language::Msl}, "a component");
+  for (const char* line : {"swap(x, x);", "Mine m; m.b[0] = x; swap(m.b[0], m.b[n]); x = m.b[0];"})
+    expectRefused(before, line, {Language::Msl}, "twice");
+  expectTaken(before, "Mine m; m.a = x; inc(m.a); m.b[0] = x; inc(m.b[0]); both(m.a, m.b[0]); both(x, x); x = m.b[0];");
+}
+
+TEST(ExportOfUserCode, AStructuresConstructorIsOnlyOfADeclaration) {
+  const std::string before =
+      "struct Mine { float a; float b; };\nfloat sum(Mine m) { return m.a + m.b; }\nMine same(Mine m) { return m; }\n";
+  for (const char* line : {"x = sum(Mine(x, 2.0f));", "Mine m; m = Mine(x, 2.0f); x = m.a;"})
+    expectRefused(before, line, kCLike, "Mine(...) but as what a declaration begins with");
+  expectTaken(before, "Mine m = Mine(x, 2.0f); x = sum(same(m));");
+}
+
+TEST(ExportOfUserCode, FloatsAndWholeNumbersOfOneCallAreToldForMetal) {
+  for (const char* line : {"x = max(x, 0);", "x = clamp(x, 0, 1);", "x = min(1, v.x);", "x = mix(x, 1.0f, 0);",
+                           "x = pow(x, 2);", "x = step(0, x);", "x = max(x, n);", "x = sqrt(2);"})
+    expectRefused("", line, {Language::Msl}, "0.0f");
+  expectTaken("", "n = max(n, 0); x = max(x, 0.0f) + float(abs(n)) + pow(x, 2.0f) + float(clamp(n, 0, 1));");
+}
+
+TEST(ExportOfUserCode, WholeSignsAreToldForHlsl) {
+  expectRefused("", "n = sign(n); x = float(n);", {Language::Hlsl}, "sign of whole numbers");
+}
+
+TEST(ExportOfUserCode, AVariableWithAStructuresNameIsToldByItsLine) {
+  const std::string before = "struct Mine { float a; };\n";
+  for (const char* code : {"PlaneDepth PlaneDepth = receiverPlaneDepth(map, receiver, tap);", "float Mine = 1.0f;"}) {
+    const std::string said = refusal(fmt::format("{}{} {{\n  {}\n  return true; }}\n", before, kUserHead, code));
+    EXPECT_TRUE(said.starts_with("mine.glsl:3: ") && mentions(said, "is a structure's name, too; rename it")) << said;
+  }
+  const std::string said =
+      refusal(before + "float f(float Mine) { return Mine; }\n" + kUserHead + " { return f(tap.z1) > 0.5f; }\n");
+  EXPECT_TRUE(said.starts_with("mine.glsl:2: ")) << said;
+}
+
+TEST(ExportOfUserCode, ParametersMayBeInAndConst) {
+  expectTaken(
+      "float f(in float a) { return a; }\nfloat g(const float a) { return a; }\nfloat h(const in float a) { return a; "
+      "}\n",
+      "x = f(x) + g(x) + h(x);");
 }
 
 }  // namespace
