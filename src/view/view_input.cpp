@@ -214,8 +214,8 @@ void ViewWindow::listenToInput() {
   });
 }
 
-// A mouse button or the wheel alone, or a key with the characters behind it: what follows waits for the next frame. Null where
-// nothing waited: then what is held counts.
+// A mouse button or the wheel alone, or a key with the characters behind it: what follows waits for the next frame.
+// Null where nothing waited: then what is held counts.
 std::optional<KeyTap> ViewWindow::takeInput() {
   ImGuiIO& io = ImGui::GetIO();
   const int before = std::exchange(lastTapped_, 0);
