@@ -73,7 +73,7 @@ TEST(ExportOfUserCode, StaysAsItIsWritten) {
            {"", "float y = 1.0f; if (n > 0) { if (true) { float y = 3.0f; x += y; } x += y; } return x > 2.0f;",
             "if (true)"},
            {"", "if (16777217.0f == 16777216.0f) return x > 0.5f; return false;", "16777217.0f == 16777216.0f"},
-           {"", "if (kMapKind == kMapCube) return x > 0.5f; return false;", "if (0 == kGnomonMapCube)"},
+           {"", "if (kMapKind == kMapCube) return x > 0.5f; return false;", "if (1 == kGnomonMapCube)"},
        }) {
     const auto user = readUserBias(
         "mine.glsl",
