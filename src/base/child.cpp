@@ -1,17 +1,14 @@
 #include "base/child.h"
 
+#include "base/child_channel.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/process_memory.h"
-#include "base/sandbox.h"
-#include "base/sanitizers.h"
+#include "base/program_place.h"
 
 #include <fcntl.h>
 #include <poll.h>
+#include <spawn.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,7 +18,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <new>
 
 #include <fmt/format.h>
 
@@ -29,54 +25,51 @@ namespace gnomon {
 
 namespace {
 
-constexpr bool kLimitsMemory = !kHasSanitizers;
+// What a terminal sends to both: this process answers it, and the child goes with it.
+constexpr int kAnswersTo[] = {SIGINT, SIGHUP, SIGTERM, SIGQUIT};
 
-// The first byte of what the child hands over.
-enum class Outcome : char { Done = 'D', Failed = 'F', OutOfMemory = 'M' };
-
-void limit(__rlimit_resource resource, rlim_t soft) {
-  rlimit both{};
-  ::getrlimit(resource, &both);
-  both.rlim_cur = std::min(soft, both.rlim_cur);
-  ::setrlimit(resource, &both);
+// Above those that the child has them as, so that none takes another's place.
+Descriptor aboveTheChilds(int descriptor) {
+  return Descriptor(::fcntl(descriptor, F_DUPFD_CLOEXEC, kChildDescriptors));
 }
 
-bool writeAll(int descriptor, const char* bytes, size_t size) {
-  while (size > 0) {
-    const ssize_t count = ::write(descriptor, bytes, size);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    bytes += count;
-    size -= static_cast<size_t>(count);
+class Actions {
+ public:
+  Actions() { ::posix_spawn_file_actions_init(&actions_); }
+  ~Actions() { ::posix_spawn_file_actions_destroy(&actions_); }
+  Actions(const Actions&) = delete;
+  Actions& operator=(const Actions&) = delete;
+
+  void give(const Descriptor& descriptor, int as) {
+    ::posix_spawn_file_actions_adddup2(&actions_, descriptor.get(), as);
   }
-  return true;
-}
+  void closeOthers() { ::posix_spawn_file_actions_addclosefrom_np(&actions_, kChildDescriptors); }
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
 
-[[noreturn]] void handOver(int result, Outcome outcome, const std::string& bytes) {
-  const char kind = static_cast<char>(outcome);
-  const bool whole = writeAll(result, &kind, 1) && writeAll(result, bytes.data(), bytes.size());
-  ::_exit(whole ? 0 : 1);
-}
+ private:
+  posix_spawn_file_actions_t actions_{};
+};
 
-[[noreturn]] void runAsChild(int result, const ChildLimits& limits, const std::function<std::string()>& work) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
-  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, static_cast<rlim_t>(limits.seconds));
-  if (kLimitsMemory) limit(RLIMIT_AS, processMemory().addressSpace + limits.bytes);
-  if (!limits.usesFiles) enterSandbox(result);  // where there is none, the limits hold still
-  try {
-    handOver(result, Outcome::Done, work());
-  } catch (const std::bad_alloc&) {
-    handOver(result, Outcome::OutOfMemory, "");
-  } catch (const std::exception& error) {
-    handOver(result, Outcome::Failed, error.what());
-  } catch (...) {
-    handOver(result, Outcome::Failed, "an error that has no text");
+class Attributes {
+ public:
+  Attributes() {
+    ::posix_spawnattr_init(&attributes_);
+    sigset_t defaults, blocked;
+    sigfillset(&defaults);
+    sigemptyset(&blocked);
+    for (const int signal : kAnswersTo) sigaddset(&blocked, signal);
+    ::posix_spawnattr_setsigdefault(&attributes_, &defaults);
+    ::posix_spawnattr_setsigmask(&attributes_, &blocked);
+    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
   }
-}
+  ~Attributes() { ::posix_spawnattr_destroy(&attributes_); }
+  Attributes(const Attributes&) = delete;
+  Attributes& operator=(const Attributes&) = delete;
+  const posix_spawnattr_t* get() const { return &attributes_; }
+
+ private:
+  posix_spawnattr_t attributes_{};
+};
 
 // Whether the child has ended, which closes its end of the pipe, in time.
 bool endsInTime(int pipe, int seconds) {
@@ -91,54 +84,66 @@ bool endsInTime(int pipe, int seconds) {
   }
 }
 
-std::string bytesOf(int memory) {
-  struct stat status = {};
-  ::fstat(memory, &status);
-  std::string bytes(static_cast<size_t>(status.st_size), '\0');
-  size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t count = ::pread(memory, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
-    if (count <= 0) break;
-    done += static_cast<size_t>(count);
-  }
-  bytes.resize(done);
-  return bytes;
-}
-
 }  // namespace
 
-std::string runInChild(const std::string& name, const ChildLimits& limits, const std::function<std::string()>& work) {
-  const auto noProcess = [&] {
-    return fileError(name, "is to be read in a process of its own, which cannot be made", std::strerror(errno));
+std::string runInChild(const ChildWork& work, const ChildLimits& limits) {
+  const auto noProcess = [&](const std::string& why) {
+    return fileError(work.file, "is to be read in a process of its own, which cannot be made", why);
   };
-  const Descriptor result(::memfd_create("gnomon", MFD_CLOEXEC));
+  const std::string program = findProgram(work.program);
   std::array<int, 2> ends{};
-  if (!result.isOpen() || ::pipe2(ends.data(), O_CLOEXEC) != 0) throw noProcess();
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw noProcess(std::strerror(errno));
   const Descriptor ended(ends[0]);
   Descriptor held(ends[1]);
-  std::fflush(nullptr);
-  const pid_t child = ::fork();
-  if (child < 0) throw noProcess();
-  if (child == 0) runAsChild(result.get(), limits, work);
+  const Descriptor input(::memfd_create("gnomon-input", MFD_CLOEXEC));
+  const Descriptor result(::memfd_create("gnomon-result", MFD_CLOEXEC));
+  const Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
+  Descriptor heldByChild = aboveTheChilds(held.get());
+  const Descriptor inputOfChild = aboveTheChilds(input.get()), resultOfChild = aboveTheChilds(result.get()),
+                   nowhereOfChild = aboveTheChilds(nowhere.get());
+  if (!heldByChild.isOpen() || !inputOfChild.isOpen() || !resultOfChild.isOpen() || !nowhereOfChild.isOpen())
+    throw noProcess(std::strerror(errno));
+  if (!writeAll(input.get(), work.input)) throw noProcess(std::strerror(errno));
+
+  Actions actions;
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) actions.give(nowhereOfChild, stream);
+  actions.give(inputOfChild, kChildInput);
+  actions.give(resultOfChild, kChildResult);
+  actions.give(heldByChild, kChildHeld);
+  actions.closeOthers();
+  std::vector<std::string> words{
+      program, work.name,
+      fmt::format("{} {} {} {}", limits.bytes, limits.seconds, limits.usesFiles ? 1 : 0, ::getpid())};
+  words.insert(words.end(), work.arguments.begin(), work.arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  if (const int error = ::posix_spawn(&child, program.c_str(), actions.get(), Attributes().get(), argv.data(), environ))
+    throw noProcess(std::strerror(error));
   held = Descriptor();
+  heldByChild = Descriptor();
+
   const bool inTime = endsInTime(ended.get(), 4 * limits.seconds);
   if (!inTime) ::kill(child, SIGKILL);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
+  const std::string bytes = readAll(result.get());
   const bool isOutOfTime = !inTime || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU);
   if (isOutOfTime)
-    throw fileError(name, fmt::format("takes more than {} s to read", limits.seconds), "use a smaller or simpler one");
-  if (WIFSIGNALED(status))
-    throw fileError(name, fmt::format("is damaged: it crashes its reader ({})", ::strsignal(WTERMSIG(status))),
-                    "use another file");
-  const std::string bytes = WEXITSTATUS(status) == 0 ? bytesOf(result.get()) : "";
-  const auto outcome = bytes.empty() ? Outcome::OutOfMemory : static_cast<Outcome>(bytes.front());
-  if (outcome == Outcome::Failed) throw WorldError(bytes.substr(1));
-  if (outcome == Outcome::OutOfMemory)
-    throw fileError(name, fmt::format("takes more than {} MiB of memory to read", limits.bytes >> 20),
+    throw fileError(work.file, fmt::format("takes more than {} s to read", limits.seconds),
                     "use a smaller or simpler one");
-  return bytes.substr(1);
+  if (bytes.empty())
+    throw noProcess(fmt::format("{} ends before it begins: there may be too little memory", work.program));
+  if (WIFSIGNALED(status))
+    throw fileError(work.file, fmt::format("is damaged: it crashes its reader ({})", ::strsignal(WTERMSIG(status))),
+                    "use another file");
+  const auto outcome = WEXITSTATUS(status) == 0 ? static_cast<ChildOutcome>(bytes.front()) : ChildOutcome::OutOfMemory;
+  if (outcome == ChildOutcome::Done) return bytes.substr(1);
+  if (outcome == ChildOutcome::Failed) throw WorldError(bytes.substr(1));
+  throw fileError(work.file, fmt::format("takes more than {} MiB of memory to read", limits.bytes >> 20),
+                  "use a smaller or simpler one");
 }
 
 }  // namespace gnomon

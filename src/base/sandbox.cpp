@@ -15,7 +15,10 @@ namespace {
 
 class Filter {
  public:
-  Filter() : context_(::seccomp_init(SCMP_ACT_ERRNO(EPERM))) {}
+  Filter() : context_(::seccomp_init(SCMP_ACT_ERRNO(EPERM))) {
+    // Threads that libraries began with, too.
+    isWhole_ = isWhole_ && ::seccomp_attr_set(context_, SCMP_FLTATR_CTL_TSYNC, 1) == 0;
+  }
   ~Filter() { ::seccomp_release(context_); }
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;

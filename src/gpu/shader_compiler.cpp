@@ -6,8 +6,6 @@
 #include "gpu/embedded_shaders.h"
 #include "gpu/spirv_cache.h"
 
-#include <pthread.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -44,15 +42,10 @@ constexpr size_t kMessageCount = 3;
 constexpr std::string_view kSystemFolder = "nanovdb/";
 
 std::mutex shaderDirectoryMutex;
-fs::path shaderDirectory;  // empty: the embedded sources
+fs::path chosenShaderDirectory;  // empty: the embedded sources
 
 std::atomic<int> compiledCount{0};
 std::atomic<int> foundCount{0};
-
-fs::path currentShaderDirectory() {
-  std::lock_guard lock(shaderDirectoryMutex);
-  return shaderDirectory;
-}
 
 struct Stage {
   const char* suffix;
@@ -74,7 +67,7 @@ EShLanguage stageOf(const std::string& path) {
 // Absent where there is no such file.
 std::optional<std::string> findSource(const ShaderSource& source, const std::string& path) {
   if (const auto found = source.overrides.find(path); found != source.overrides.end()) return found->second;
-  if (const fs::path folder = currentShaderDirectory(); !folder.empty()) {
+  if (const fs::path folder = shaderDirectory(); !folder.empty()) {
     std::error_code failure;
     if (fs::is_regular_file(folder / path, failure)) return readFile(folder / path);
     if (!path.starts_with(kSystemFolder)) return std::nullopt;
@@ -135,7 +128,7 @@ class Expander {
   }
 
   static std::string where() {
-    const fs::path folder = currentShaderDirectory();
+    const fs::path folder = shaderDirectory();
     return folder.empty() ? " among the built-in shaders; check the name"
                           : fmt::format(" in {}; check the name and --shader-dir", folder.string());
   }
@@ -171,17 +164,7 @@ std::string errorLines(const std::string& path, const char* log) {
   return fmt::format("{}", fmt::join(messages, "; "));
 }
 
-// Held by who compiles and by who forks: glslang has locks of its own, and one that another thread held at a fork would
-// never be let go in the child.
-std::mutex& compiling() {
-  static std::mutex mutex;
-  return mutex;
-}
-[[maybe_unused]] const int kForksWait =
-    ::pthread_atfork([] { compiling().lock(); }, [] { compiling().unlock(); }, [] { compiling().unlock(); });
-
 std::vector<uint32_t> compileWithGlslang(const std::string& path, EShLanguage stage, const std::string& text) {
-  const std::scoped_lock compiles(compiling());
   static std::once_flag initialized;
   std::call_once(initialized, [] { glslang::InitializeProcess(); });
 
@@ -215,7 +198,12 @@ void setShaderDirectory(const fs::path& folder) {
     throw fileError(folder.string(), "is not a folder of shaders",
                     "give the path of a copy of Gnomon's shaders folder");
   std::lock_guard lock(shaderDirectoryMutex);
-  shaderDirectory = folder;
+  chosenShaderDirectory = folder;
+}
+
+fs::path shaderDirectory() {
+  std::lock_guard lock(shaderDirectoryMutex);
+  return chosenShaderDirectory;
 }
 
 fs::path cacheDirectory() {

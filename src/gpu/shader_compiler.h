@@ -12,6 +12,7 @@ namespace gnomon::gpu {
 
 // Where sources come from; the embedded ones unless set. Throws WorldError where it is no folder.
 void setShaderDirectory(const std::filesystem::path& folder);
+std::filesystem::path shaderDirectory();  // empty: the embedded ones
 
 // Where SPIR-V and pipeline caches live: $GNOMON_CACHE_DIR, else $XDG_CACHE_HOME/gnomon, else ~/.cache/gnomon; an empty
 // GNOMON_CACHE_DIR turns the cache off. A cache that cannot be written is passed over.

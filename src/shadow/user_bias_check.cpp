@@ -205,18 +205,11 @@ int endlessLoop(const std::string& glsl) {
 
 void checkUserBias(const UserBias& bias) {
   checkText(bias);
-  const std::string sizes = runInChild(bias.path, kCompilerLimits, [&] {
-    try {
-      const std::vector<uint32_t> with = gpu::compileShader(shaderWith(kVisibilityShader, &bias));
-      const std::vector<uint32_t> without = gpu::compileShader(shaderWith(kVisibilityShader, nullptr));
-      checkResources(bias, with, without);
-      const uint64_t all = inlinedInstructions(with);
-      return fmt::format("{} {}", largestType(with), all - std::min(all, inlinedInstructions(without)));
-    } catch (const WorldError& error) {
-      explainLinkError(bias, error.what());
-      throw WorldError(inUsersWords(error.what(), bias));
-    }
-  });
+  const std::string sizes = runInChild({.file = bias.path,
+                                        .name = kUserBiasWork,
+                                        .arguments = {gpu::shaderDirectory().string(), bias.path},
+                                        .input = bias.source},
+                                       kCompilerLimits);
   std::istringstream numbers(sizes);
   uint64_t values = 0, instructions = 0;
   numbers >> values >> instructions;
@@ -229,6 +222,21 @@ void checkUserBias(const UserBias& bias) {
         fmt::format("its functions, written out wherever they are called, have {} instructions, more than {}",
                     instructions, kMostInstructions),
         "no driver compiles that in reasonable time; let fewer functions call others more than once");
+}
+
+std::string compiledUserBias(const std::vector<std::string>& arguments, std::string source) {
+  if (!arguments.at(0).empty()) gpu::setShaderDirectory(arguments[0]);
+  const std::unique_ptr<const UserBias> bias = readUserBias(arguments.at(1), source);
+  try {
+    const std::vector<uint32_t> with = gpu::compileShader(shaderWith(kVisibilityShader, bias.get()));
+    const std::vector<uint32_t> without = gpu::compileShader(shaderWith(kVisibilityShader, nullptr));
+    checkResources(*bias, with, without);
+    const uint64_t all = inlinedInstructions(with);
+    return fmt::format("{} {}", largestType(with), all - std::min(all, inlinedInstructions(without)));
+  } catch (const WorldError& error) {
+    explainLinkError(*bias, error.what());
+    throw WorldError(inUsersWords(error.what(), *bias));
+  }
 }
 
 }  // namespace gnomon

@@ -4,6 +4,9 @@
 
 #include "shadow/user_bias.h"
 
+#include <string>
+#include <vector>
+
 namespace gnomon {
 
 // Compiles the bias in a process of its own (base/child.h), within limits. Throws WorldError that names the file, and
@@ -12,5 +15,11 @@ void checkUserBias(const UserBias& bias);
 
 // The line, from 1, of a loop that nothing ends: its condition is always true, and it has no break or return. 0: none.
 int endlessLoop(const std::string& glsl);
+
+// What checkUserBias has done in the process of its own (src/reader). Arguments: the folder of shaders, empty for the
+// embedded ones, and the bias's path. Returns "VALUES INSTRUCTIONS": of its largest type, and of all its functions
+// written out at every call.
+inline constexpr const char* kUserBiasWork = "user-bias";
+std::string compiledUserBias(const std::vector<std::string>& arguments, std::string source);
 
 }  // namespace gnomon

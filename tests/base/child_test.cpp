@@ -1,23 +1,23 @@
-// What a child breaks, fills or never finishes is an error of one line.
+// What a child breaks, fills or never finishes is an error of one line. child_test_program.cpp has what it does.
 #include "base/child.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/sandbox.h"
+#include "base/program_place.h"
 #include "base/sanitizers.h"
 #include "tests/base/temporary_folder.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/socket.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -28,9 +28,16 @@ namespace {
 
 constexpr ChildLimits kLimits{.bytes = 256 << 20, .seconds = 1};
 
-std::string messageOf(const std::function<std::string()>& work) {
+std::string made(const std::string& work, const std::vector<std::string>& arguments = {}, std::string_view input = {},
+                 const ChildLimits& limits = kLimits) {
+  return runInChild(
+      {.file = "file.x", .name = work, .arguments = arguments, .input = input, .program = GNOMON_CHILD_TEST_PROGRAM},
+      limits);
+}
+
+std::string messageOf(const std::string& work, const std::vector<std::string>& arguments = {}) {
   try {
-    runInChild("file.x", kLimits, work);
+    made(work, arguments);
   } catch (const WorldError& error) {
     return error.what();
   }
@@ -38,24 +45,20 @@ std::string messageOf(const std::function<std::string()>& work) {
 }
 
 TEST(ChildTest, HandsOverWhatItMakes) {
-  EXPECT_EQ(runInChild("file.x", kLimits, [] { return std::string(); }), "");
+  EXPECT_EQ(made("echo"), "");
   const std::string large(50'000'000, 'x');
-  EXPECT_EQ(runInChild("file.x", kLimits, [&] { return large; }), large);
+  EXPECT_TRUE(made("echo", {"a word", "", "-"}, large, {.bytes = 512 << 20, .seconds = 20}) == "a word||-|" + large);
+  EXPECT_EQ(made("echo", {}, std::string("a\0b", 3)), std::string("a\0b", 3));
 }
 
 TEST(ChildTest, ItsErrorsAreTheCallers) {
-  EXPECT_EQ(messageOf([]() -> std::string { throw WorldError("file.x: no; yes"); }), "file.x: no; yes");
-  EXPECT_EQ(messageOf([]() -> std::string { throw std::runtime_error("odd"); }), "odd");
+  EXPECT_EQ(messageOf("complain", {"file.x: no; yes"}), "file.x: no; yes");
+  EXPECT_EQ(messageOf("complain oddly", {"odd"}), "odd");
 }
 
 TEST(ChildTest, ACrashNamesTheFileAndPrintsNothing) {
   testing::internal::CaptureStderr();
-  const std::string message = messageOf([]() -> std::string {
-    std::fputs("a library's last words\n", stderr);
-    std::fflush(stderr);
-    std::raise(SIGSEGV);
-    return "";
-  });
+  const std::string message = messageOf("crash");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_NE(message.find("file.x: is damaged: it crashes its reader (Segmentation fault)"), std::string::npos)
       << message;
@@ -63,54 +66,75 @@ TEST(ChildTest, ACrashNamesTheFileAndPrintsNothing) {
 
 // What damage in a file may make a library do: nothing of it reaches beyond the child.
 TEST(ChildTest, ItCanOpenStartSignalAndConnectNothing) {
-  const auto failureOf = [](const std::function<long()>& call) {
-    const std::string message = messageOf([&]() -> std::string {
-      errno = 0;
-      const long given = call();
-      throw WorldError(given < 0 ? std::strerror(errno) : "done");
-    });
-    return message;
-  };
   const std::string refused = std::strerror(EPERM);
   const test::TemporaryFolder folder;
-  const std::string made = (folder.path() / "by_a_child").string();
-  EXPECT_EQ(failureOf([&] { return ::open(made.c_str(), O_CREAT | O_WRONLY, 0600); }), refused);
-  EXPECT_EQ(failureOf([] { return ::open("/etc/passwd", O_RDONLY); }), refused);
-  EXPECT_EQ(failureOf([] { return ::socket(AF_INET, SOCK_STREAM, 0); }), refused);
-  EXPECT_EQ(failureOf([] { return ::fork(); }), refused);
-  EXPECT_EQ(failureOf([] { return ::kill(::getppid(), 0); }), refused);
-  EXPECT_EQ(failureOf([] { return ::unlink("/nowhere"); }), refused);
-  EXPECT_EQ(failureOf([] {
-              void* page = ::mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-              return page == MAP_FAILED ? -1 : 0;
-            }),
-            refused);
-  if (!kHasSanitizers) {  // which write into pipes of their own
-    const Descriptor other(::memfd_create("other", MFD_CLOEXEC));
-    EXPECT_EQ(failureOf([&] { return ::write(other.get(), "x", 1); }), refused);
-  }
-  EXPECT_FALSE(std::filesystem::exists(made));
+  const std::string file = (folder.path() / "by_a_child").string();
+  for (const char* call :
+       {"make a file", "open a file", "connect", "fork", "signal", "remove a file", "run what it writes"})
+    EXPECT_EQ(made("try", {call, file}), refused) << call;
+  if (!kHasSanitizers)  // which write into pipes of their own
+    EXPECT_EQ(made("try", {"write elsewhere"}), refused);
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+// Nor is anything open in it that this process has open.
+TEST(ChildTest, ItHasNoDescriptorOfItsParents) {
+  std::vector<Descriptor> open;
+  for (int i = 0; i < 30; ++i) open.emplace_back(::open("/dev/zero", O_RDONLY));  // on purpose not O_CLOEXEC
+  EXPECT_EQ(made("try", {"read elsewhere"}), std::strerror(EBADF));
 }
 
 TEST(ChildTest, ItEndsInTimeWhetherItWorksOrWaits) {
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_NE(messageOf([]() -> std::string {
-              for (std::atomic<int> i = 0;; ++i) {
-              }
-            }).find("file.x: takes more than 1 s"),
-            std::string::npos);
-  EXPECT_NE(messageOf([] {
-              std::this_thread::sleep_for(std::chrono::seconds(60));
-              return std::string();
-            }).find("file.x: takes more than 1 s"),
-            std::string::npos);
+  for (const char* work : {"compute", "wait"})
+    EXPECT_NE(messageOf(work).find("file.x: takes more than 1 s"), std::string::npos) << work;
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }
 
 TEST(ChildTest, ItHasNoMoreMemoryThanItIsGiven) {
   if (kHasSanitizers) GTEST_SKIP() << "skipped: sanitizers take terabytes of addresses";
-  const std::string message = messageOf([] { return std::string(size_t{1} << 30, 'x'); });
+  const std::string message = messageOf("fill", {"1073741824"});
   EXPECT_NE(message.find("file.x: takes more than 256 MiB of memory"), std::string::npos) << message;
+}
+
+// Which at any moment hold locks of the allocator, of the loader, or of a library's own.
+TEST(ChildTest, OtherThreadsDoNotHoldItUp) {
+  std::atomic<bool> isDone = false;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      while (!isDone) {
+        std::vector<std::unique_ptr<std::string>> strings;
+        for (size_t size = 1; size < 200; ++size) strings.push_back(std::make_unique<std::string>(size * size, 'x'));
+        std::thread([] {}).join();
+      }
+    });
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(made("echo", {}, "abc", {.bytes = 256 << 20, .seconds = 20}), "abc");
+  isDone = true;
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST(ChildTest, AProgramThatIsMissingOrNotWholeIsNamed) {
+  const auto messageWith = [](const std::string& program) {
+    try {
+      runInChild({.file = "file.x", .name = "echo", .arguments = {}, .program = program}, kLimits);
+    } catch (const WorldError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(messageWith("gnomon-no-such-program").find("gnomon-no-such-program: there is no such program; keep it"),
+            std::string::npos);
+  EXPECT_NE(messageWith("/nowhere/at-all").find("file.x: is to be read in a process of its own, which cannot be made"),
+            std::string::npos);
+  EXPECT_NE(messageWith("/bin/true").find("/bin/true ends before it begins"), std::string::npos);
+}
+
+// Where whoever calls may be told: with a slash it is a path; else beside this program, too.
+TEST(ChildTest, ProgramsAreFoundBesideThisOne) {
+  EXPECT_EQ(findProgram("/a/path"), "/a/path");
+  const std::filesystem::path program = GNOMON_CHILD_TEST_PROGRAM;
+  EXPECT_EQ(findProgram(program.filename().string()), program.string());
 }
 
 }  // namespace

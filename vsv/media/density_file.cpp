@@ -161,7 +161,7 @@ DensityFile::Facts factsOf(const openvdb::FloatGrid& grid) {
   return facts;
 }
 
-// In the child: the facts, the name's length, the name, the grid.
+// The facts, the name's length, the name, the grid.
 std::string packed(const Named& named, std::string bytes) {
   try {
     openvdb::initialize();
@@ -213,12 +213,16 @@ DensityFile readDensityFile(const std::string& fileAndGrid) {
   const uint64_t size = bytes.size();
   const ChildLimits limits{.bytes = kBytesAlways + kBytesPerByte * size,
                            .seconds = kSecondsAlways + static_cast<int>(size / kBytesPerSecond)};
-  // The child has a copy of oneTBB's state and none of its threads. One of them may have held the lock under which they
-  // are woken; an arena of one wakes nobody.
-  return unpacked(named, runInChild(named.path, limits, [&] {
-                    tbb::task_arena alone(1);
-                    return alone.execute([&] { return packed(named, std::move(bytes)); });
-                  }));
+  const std::string packed = runInChild(
+      {.file = named.path, .name = kDensityWork, .arguments = {named.path, named.grid}, .input = bytes}, limits);
+  bytes = {};
+  return unpacked(named, packed);
+}
+
+std::string packedDensity(const std::vector<std::string>& pathAndGrid, std::string bytes) {
+  // Alone, because no thread can be started there.
+  tbb::task_arena alone(1);
+  return alone.execute([&] { return packed({pathAndGrid.at(0), pathAndGrid.at(1)}, std::move(bytes)); });
 }
 
 DensityFile readDensityBytes(const std::string& fileAndGrid, std::string bytes) {
