@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/program_place.h"
 #include "base/sanitizers.h"
+#include "tests/base/places.h"
 #include "tests/base/temporary_folder.h"
 
 #include <fcntl.h>
@@ -26,13 +27,13 @@
 namespace gnomon {
 namespace {
 
+const std::string kProgram = test::inBuild("tests/base/child_test_program");
 constexpr ChildLimits kLimits{.bytes = 256 << 20, .seconds = 1};
 
 std::string made(const std::string& work, const std::vector<std::string>& arguments = {}, std::string_view input = {},
                  const ChildLimits& limits = kLimits) {
-  return runInChild(
-      {.file = "file.x", .name = work, .arguments = arguments, .input = input, .program = GNOMON_CHILD_TEST_PROGRAM},
-      limits);
+  return runInChild({.file = "file.x", .name = work, .arguments = arguments, .input = input, .program = kProgram},
+                    limits);
 }
 
 std::string messageOf(const std::string& work, const std::vector<std::string>& arguments = {}) {
@@ -133,7 +134,7 @@ TEST(ChildTest, AProgramThatIsMissingOrNotWholeIsNamed) {
 // Where whoever calls may be told: with a slash it is a path; else beside this program, too.
 TEST(ChildTest, ProgramsAreFoundBesideThisOne) {
   EXPECT_EQ(findProgram("/a/path"), "/a/path");
-  const std::filesystem::path program = GNOMON_CHILD_TEST_PROGRAM;
+  const std::filesystem::path program = kProgram;
   EXPECT_EQ(findProgram(program.filename().string()), program.string());
 }
 

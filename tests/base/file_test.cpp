@@ -2,12 +2,12 @@
 #include "base/file.h"
 #include "base/error.h"
 #include "tests/base/file_limit.h"
+#include "tests/base/started_process.h"
 #include "tests/base/temporary_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -42,10 +42,9 @@ std::string messageOf(const std::function<void()>& action) {
 
 // A process that has ended, whose number is not in use again so soon.
 pid_t endedProcess() {
-  const pid_t child = ::fork();
-  if (child == 0) ::_exit(0);
-  ::waitpid(child, nullptr, 0);
-  return child;
+  const pid_t process = test::startProcess({"/bin/true"});
+  test::statusOf(process);
+  return process;
 }
 
 TEST_F(FileTest, AnErrorWhileWritingLeavesTheOldFileAndNothingElse) {

@@ -4,8 +4,8 @@
 #include "base/file.h"
 
 #include "tests/base/places.h"
+#include "tests/base/started_process.h"
 
-#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,19 +26,8 @@ class RunningProgram {
   // What it prints goes to files in `folder`, which it runs in.
   RunningProgram(std::vector<std::string> words, const std::filesystem::path& folder) : folder_(folder) {
     words.insert(words.begin(), test::inBuild("gnomon"));
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    process_ = ::fork();
-    if (process_ != 0) return;
-    std::signal(SIGINT, SIG_DFL);  // whatever the test was started by has made of it
-    const auto open = [&](const char* name) {
-      return ::open((folder_ / name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    };
-    ::dup2(open("stdout"), STDOUT_FILENO);
-    ::dup2(open("stderr"), STDERR_FILENO);
-    if (::chdir(folder_.c_str()) == 0) ::execv(words[0].c_str(), argv.data());
-    ::_exit(127);
+    const Descriptor out = openToWrite(folder_ / "stdout"), error = openToWrite(folder_ / "stderr");
+    process_ = startProcess(std::move(words), {.out = out.get(), .error = error.get(), .folder = folder_});
   }
   ~RunningProgram() {
     if (process_ <= 0) return;

@@ -4,6 +4,7 @@
 
 #include "lab/store/store.h"
 #include "tests/base/places.h"
+#include "tests/base/started_process.h"
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -45,14 +46,10 @@ class SweepCliTest : public CliTest {
 
   // The program, started and not waited for.
   pid_t start(const std::string& db) const {
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    const std::string plan = (folder_ / "p.json").string(), store = (folder_ / db).string();
-    const std::string program = test::inBuild("gnomon");
-    [[maybe_unused]] const auto* out = std::freopen("/dev/null", "w", stdout);
-    [[maybe_unused]] const auto* err = std::freopen((folder_ / (db + ".err")).c_str(), "w", stderr);
-    ::execl(program.c_str(), program.c_str(), "sweep", plan.c_str(), "--db", store.c_str(), "--quiet", nullptr);
-    ::_exit(127);
+    const Descriptor none = test::openToWrite("/dev/null"), error = test::openToWrite(folder_ / (db + ".err"));
+    return test::startProcess(
+        {test::inBuild("gnomon"), "sweep", (folder_ / "p.json").string(), "--db", (folder_ / db).string(), "--quiet"},
+        {.out = none.get(), .error = error.get()});
   }
 };
 

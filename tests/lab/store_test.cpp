@@ -3,13 +3,20 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "tests/base/places.h"
+#include "tests/base/started_process.h"
 #include "tests/base/temporary_folder.h"
+#include "tests/lab/store_rows.h"
 
-#include <sys/wait.h>
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
+#include <chrono>
 #include <csignal>
 #include <functional>
+#include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,39 +25,13 @@ namespace gnomon {
 namespace {
 
 namespace fs = std::filesystem;
+using test::caseOf;
+using test::fill;
+using test::kMachine;
+using test::rowOf;
 using test::TemporaryFolder;
 
-const Machine kMachine{.program = "test", .results = "1-a", .device = "device", .driver = "driver", .host = "host"};
-
-StoredCase caseOf(const std::string& key) {
-  return {.key = key,
-          .scene = "scene",
-          .sceneHash = "h",
-          .sceneSource = "s",
-          .light = "l",
-          .lightType = "point",
-          .camera = "c",
-          .width = 8,
-          .height = 8,
-          .map = "cube",
-          .mapSize = 64};
-}
-
-StoredRow rowOf(const std::string& key, const std::string& slot, size_t acne = 1) {
-  StoredRow stored{.key = key, .slot = slot, .method = "none"};
-  stored.row.bias = "none";
-  stored.row.scored = 100;
-  stored.row.agree = 100 - acne;
-  stored.row.acne = acne;
-  stored.times = StoredTimes{.gbufferMs = 1, .buildMs = 2, .shadeMs = 3, .rounds = 4};
-  return stored;
-}
-
-void fill(const fs::path& path, const std::vector<StoredRow>& rows) {
-  Store store(path, sql::Open::Create);
-  store.startWork(kMachine);
-  store.put(caseOf("case"), rows);
-}
+const std::string kProcess = test::inBuild("tests/lab/store_process");
 
 int64_t count(const Store& store, const std::string& of) {
   return store.database().integerOf("SELECT count(*) FROM " + of);
@@ -72,31 +53,18 @@ TEST(Store, KeepsACaseWholeAndNothingTwice) {
 TEST(Store, ProcessesThatMakeItAtOnceShareIt) {
   for (int round = 0; round < 20; ++round) {
     const TemporaryFolder folder;
-    int start[2];
-    ASSERT_EQ(::pipe(start), 0);
-    std::vector<pid_t> children;
-    for (int i = 0; i < 6; ++i) {
-      children.push_back(::fork());
-      if (children.back() != 0) continue;
-      int failed = 0;
-      char none = 0;
-      ::close(start[1]);
-      [[maybe_unused]] const ssize_t ended = ::read(start[0], &none, 1);  // when all are there
-      try {
-        fill(folder.path() / "s.db", {rowOf(fmt::format("k{}", i), fmt::format("s{}", i))});
-      } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        failed = 1;
-      }
-      ::_exit(failed);
-    }
-    ::close(start[0]);
-    ::close(start[1]);
-    for (const pid_t child : children) {
-      int status = 0;
-      ASSERT_EQ(::waitpid(child, &status, 0), child);
-      EXPECT_EQ(status, 0);
-    }
+    std::array<int, 2> start{};
+    ASSERT_EQ(::pipe2(start.data(), O_CLOEXEC), 0);
+    const Descriptor waited(start[0]);
+    Descriptor held(start[1]);
+    std::vector<pid_t> processes;
+    for (int i = 0; i < 6; ++i)
+      processes.push_back(test::startProcess(
+          {kProcess, "fill", (folder.path() / "s.db").string(), fmt::format("k{}", i), fmt::format("s{}", i)},
+          {.in = waited.get()}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    held = Descriptor();  // now all of them begin
+    for (const pid_t process : processes) EXPECT_EQ(test::statusOf(process), 0);
     EXPECT_EQ(count(Store(folder.path() / "s.db", sql::Open::Existing), "results"), 6);
   }
 }
@@ -119,19 +87,14 @@ TEST(Store, ClaimsOfTheLivingCountAndThoseOfTheDeadDoNot) {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "s.db";
   fill(path, {rowOf("k", "s")});
-  int ready[2];
-  ASSERT_EQ(::pipe(ready), 0);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    Store store(path, sql::Open::Existing);
-    store.startWork(kMachine);
-    const char said = store.claim("work") ? 'y' : 'n';
-    [[maybe_unused]] const ssize_t written = ::write(ready[1], &said, 1);
-    ::pause();
-    ::_exit(0);
-  }
+  std::array<int, 2> ready{};
+  ASSERT_EQ(::pipe2(ready.data(), O_CLOEXEC), 0);
+  const Descriptor heard(ready[0]);
+  Descriptor told(ready[1]);
+  const pid_t process = test::startProcess({kProcess, "claim", path.string(), "work"}, {.out = told.get()});
+  told = Descriptor();
   char said = 0;
-  ASSERT_EQ(::read(ready[0], &said, 1), 1);
+  ASSERT_EQ(::read(heard.get(), &said, 1), 1);
   EXPECT_EQ(said, 'y');
   Store store(path, sql::Open::Existing);
   store.startWork(kMachine);
@@ -139,8 +102,8 @@ TEST(Store, ClaimsOfTheLivingCountAndThoseOfTheDeadDoNot) {
   EXPECT_TRUE(store.claim("other work"));
   EXPECT_TRUE(Workers::anyAt(path));
   EXPECT_THROW(mergeStores({path}, path), WorldError);  // somebody works on it
-  ::kill(child, SIGKILL);
-  ::waitpid(child, nullptr, 0);
+  ::kill(process, SIGKILL);
+  test::statusOf(process);
   EXPECT_TRUE(store.claim("work"));
   store.release("work");
   Store third(path, sql::Open::Existing);
