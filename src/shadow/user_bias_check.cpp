@@ -12,8 +12,11 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -197,6 +200,25 @@ void checkText(const UserBias& bias) {
         bias.path, line));
 }
 
+// Of the biases that have passed, with the shaders that they were compiled with: a change that is taken back, or a
+// session that names a file once more, asks for no compiler.
+class Passed {
+ public:
+  using Key = std::pair<std::string, std::string>;
+  bool has(const Key& key) {
+    const std::scoped_lock lock(mutex_);
+    return keys_.contains(key);
+  }
+  void add(const Key& key) {
+    const std::scoped_lock lock(mutex_);
+    keys_.insert(key);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::set<Key> keys_;
+};
+
 }  // namespace
 
 int endlessLoop(const std::string& glsl) {
@@ -205,11 +227,12 @@ int endlessLoop(const std::string& glsl) {
 
 void checkUserBias(const UserBias& bias) {
   checkText(bias);
-  const std::string sizes = runInChild({.file = bias.path,
-                                        .name = kUserBiasWork,
-                                        .arguments = {gpu::shaderDirectory().string(), bias.path},
-                                        .input = bias.source},
-                                       kCompilerLimits);
+  static Passed& passed = *new Passed;  // never destroyed: a thread may be here when the program ends
+  const std::string shaders = gpu::shaderDirectory().string();
+  if (passed.has({shaders, bias.source})) return;
+  const std::string sizes =
+      runInChild({.file = bias.path, .name = kUserBiasWork, .arguments = {shaders, bias.path}, .input = bias.source},
+                 kCompilerLimits);
   std::istringstream numbers(sizes);
   uint64_t values = 0, instructions = 0;
   numbers >> values >> instructions;
@@ -222,6 +245,7 @@ void checkUserBias(const UserBias& bias) {
         fmt::format("its functions, written out wherever they are called, have {} instructions, more than {}",
                     instructions, kMostInstructions),
         "no driver compiles that in reasonable time; let fewer functions call others more than once");
+  passed.add({shaders, bias.source});
 }
 
 std::string compiledUserBias(const std::vector<std::string>& arguments, std::string source) {

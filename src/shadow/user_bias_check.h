@@ -9,8 +9,8 @@
 
 namespace gnomon {
 
-// Compiles the bias in a process of its own (base/child.h), within limits. Throws WorldError that names the file, and
-// the line where one is to blame. For before the scene is opened.
+// Compiles the bias in a process of its own (base/child.h), within limits; a text that has passed, not again. Throws
+// WorldError that names the file, and the line where one is to blame. For before the scene is opened.
 void checkUserBias(const UserBias& bias);
 
 // The line, from 1, of a loop that nothing ends: its condition is always true, and it has no break or return. 0: none.

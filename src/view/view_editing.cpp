@@ -95,7 +95,7 @@ void ViewWindow::openFile(const std::string& path) {
     state_.fog.on = true;
     state_.fog.density = path;
   } else if (extension == ".json") {
-    state_ = readSession(path, readFile(path, 1 << 20), state_);
+    state_ = readSession(path, readSessionFile(path), state_);
   } else if (extension == ".glsl") {
     setControl("a.bias", path);
   } else {
@@ -105,8 +105,26 @@ void ViewWindow::openFile(const std::string& path) {
   noteChange(false);
 }
 
+// One after the other; what asks for the compiler is checked beside the window first.
 void ViewWindow::openDropped() {
-  for (const std::string& path : std::exchange(dropped_, {})) guarded([&] { openFile(path); });
+  for (; !dropped_.empty(); dropped_.pop_front()) {
+    const std::string path = dropped_.front();
+    std::error_code failure;
+    if (!check_ && FileCheck::isFor(path) && std::filesystem::is_regular_file(path, failure)) {
+      check_.emplace(path, state_);
+      say("reading " + path, false);
+    }
+    if (check_ && !check_->isDone()) return;
+    guarded([&] {
+      if (const auto check = std::exchange(check_, std::nullopt)) check->rethrow();
+      openFile(path);
+    });
+  }
+}
+
+// Whether a frame would open something.
+bool ViewWindow::opensDropped() const {
+  return !dropped_.empty() && (!check_ || check_->isDone());
 }
 
 void ViewWindow::saveSession(const std::string& path) {

@@ -79,6 +79,8 @@ bool ScriptPlayer::step() {
       }
       waiting_ = nullptr;
     }
+    window_.scriptWaits_ = !window_.dropped_.empty();  // until it is opened, which has limits of its own
+    if (window_.scriptWaits_) return true;
     if (at_ >= lines_.size()) {
       // A person's window goes on without it.
       return window_.options_.script.empty();

@@ -67,7 +67,7 @@ ViewWindow::ViewWindow(const ViewOptions& options) : options_(options), state_(o
   std::vector<ScriptLine> lines;
   if (!options.script.empty()) lines = readScript(options.script);
   if (!options.session.empty() && std::filesystem::exists(options.session)) {
-    state_ = readSession(options.session, readFile(options.session, 1 << 20), state_);
+    state_ = readSession(options.session, readSessionFile(options.session), state_);
     if (options.namesOthers)
       std::fprintf(stderr, "gnomon: note: what the session %s sets comes before the command line\n",
                    printable(options.session).c_str());
@@ -364,8 +364,8 @@ bool ViewWindow::wantsFrame() const {
   const bool restIsDue = !restAsked_ && isAtRest();
   const bool plays = script_ != nullptr && !script_->isDone() && !scriptWaits_;
   const bool counts = options_.frames && framesDrawn_ < *options_.frames && (!script_ || script_->isDone());
-  return framesPending_ > 0 || !input_.empty() || changed_ || drag_ != Drag::None || restIsDue || plays || counts ||
-         worker_->newest() != picture_;
+  return framesPending_ > 0 || !input_.empty() || opensDropped() || changed_ || drag_ != Drag::None || restIsDue ||
+         plays || counts || worker_->newest() != picture_;
 }
 
 // Until something happens, or there is something to draw all the same.
@@ -373,7 +373,7 @@ void ViewWindow::waitForEvents() {
   if (wantsFrame()) return glfwPollEvents();
   const bool goesOn = !restAsked_;  // a key may be held
   const bool waits = script_ != nullptr || options_.frames.has_value();
-  const double seconds = goesOn ? kWhileMoving : waits ? kWhileScripted : kIdle;
+  const double seconds = goesOn || check_ ? kWhileMoving : waits ? kWhileScripted : kIdle;
   const ViewClock::time_point before = ViewClock::now();
   glfwWaitEventsTimeout(seconds);
   const bool happened = msBetween(before, ViewClock::now()) < 980.0 * seconds;

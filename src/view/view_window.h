@@ -1,6 +1,7 @@
 #pragma once
 // The window: what is on it, what a person does there, and what becomes of it. Of gnomon-view alone.
 
+#include "view/file_check.h"
 #include "view/picture_worker.h"
 #include "view/pixel_facts.h"
 #include "view/presenter.h"
@@ -123,6 +124,7 @@ class ViewWindow {
   void redo();
   void openFile(const std::string& path);
   void openDropped();
+  bool opensDropped() const;
   void say(const std::string& line, bool isProblem);
   // What goes wrong becomes a line in the window.
   template <typename Work>
@@ -242,7 +244,8 @@ class ViewWindow {
   };
   Typed typed_;  // a number that is not set yet
 
-  std::vector<std::string> dropped_;
+  std::deque<std::string> dropped_;    // files that are not opened yet
+  std::optional<FileCheck> check_;     // of the first
   std::deque<InputEvent> input_;       // that no frame has seen yet, in its order
   glm::vec2 pointer_{};                // where it was at the last event
   std::array<bool, 3> buttons_{};      // of the mouse, as the frames have seen them

@@ -6,10 +6,14 @@
 #include "lab/core/maps.h"
 #include "scene/generate.h"
 #include "tests/base/temporary_folder.h"
+#include "view/file_check.h"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
+#include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace gnomon {
@@ -195,6 +199,29 @@ TEST(ViewControls, ASessionNamesFilesFromItsOwnFolder) {
   const ViewState read = readSession(session.string(), saved, stateOf("corner"));
   EXPECT_EQ(std::filesystem::weakly_canonical(findControl(viewControls(nullptr, read), "a.bias").get(read)), bias);
   EXPECT_EQ(read.setup.scene, "atrium");
+}
+
+// What a large bias asks of the compiler is asked in another thread, once.
+TEST(ViewControls, ADroppedBiasIsCheckedBesideTheWindow) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder.path() / "large.glsl").string();
+  // 2^12 products of what is no constant.
+  std::string glsl = "#define M0(x) (x * x)\n";
+  for (int i = 1; i < 11; ++i) glsl += fmt::format("#define M{0}(x) M{1}(x) * M{1}(x)\n", i, i - 1);
+  glsl += "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) { return M10(tap.z) > 0.5; }\n";
+  writeTextFile(file, glsl);
+  EXPECT_TRUE(FileCheck::isFor(file));
+  const ViewState state = stateOf("corner");
+  const FileCheck check(file, state);
+  EXPECT_FALSE(check.isDone());
+  while (!check.isDone()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_NO_THROW(check.rethrow());
+  const std::string session = (folder.path() / "s.json").string();
+  writeTextFile(session, R"({"gnomon_view": 1, "a.bias": "nonsense.glsl"})");
+  writeTextFile(folder.path() / "nonsense.glsl", "nonsense\n");
+  const FileCheck broken(session, state);
+  while (!broken.isDone()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_THROW(broken.rethrow(), WorldError);
 }
 
 // Nothing is a number of its own.
