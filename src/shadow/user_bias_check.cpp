@@ -5,6 +5,7 @@
 #include "gpu/glsl_words.h"
 #include "gpu/program.h"
 #include "gpu/shader_compiler.h"
+#include "gpu/spirv_cache.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +17,6 @@
 #include <optional>
 #include <set>
 #include <sstream>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -200,23 +200,22 @@ void checkText(const UserBias& bias) {
         bias.path, line));
 }
 
-// Of the biases that have passed, with the shaders that they were compiled with: a change that is taken back, or a
-// session that names a file once more, asks for no compiler.
+// Texts that have passed, with where the shaders around them come from: a change that is taken back, or a session that
+// names a file once more, asks for no compiler.
 class Passed {
  public:
-  using Key = std::pair<std::string, std::string>;
-  bool has(const Key& key) {
+  bool has(const gpu::Hash128& text) {
     const std::scoped_lock lock(mutex_);
-    return keys_.contains(key);
+    return texts_.contains(text);
   }
-  void add(const Key& key) {
+  void add(const gpu::Hash128& text) {
     const std::scoped_lock lock(mutex_);
-    keys_.insert(key);
+    texts_.insert(text);
   }
 
  private:
   std::mutex mutex_;
-  std::set<Key> keys_;
+  std::set<gpu::Hash128> texts_;
 };
 
 }  // namespace
@@ -229,7 +228,8 @@ void checkUserBias(const UserBias& bias) {
   checkText(bias);
   static Passed& passed = *new Passed;  // never destroyed: a thread may be here when the program ends
   const std::string shaders = gpu::shaderDirectory().string();
-  if (passed.has({shaders, bias.source})) return;
+  const gpu::Hash128 text = gpu::hashText(shaders + '\n' + bias.source);
+  if (passed.has(text)) return;
   const std::string sizes =
       runInChild({.file = bias.path, .name = kUserBiasWork, .arguments = {shaders, bias.path}, .input = bias.source},
                  kCompilerLimits);
@@ -245,7 +245,7 @@ void checkUserBias(const UserBias& bias) {
         fmt::format("its functions, written out wherever they are called, have {} instructions, more than {}",
                     instructions, kMostInstructions),
         "no driver compiles that in reasonable time; let fewer functions call others more than once");
-  passed.add({shaders, bias.source});
+  passed.add(text);
 }
 
 std::string compiledUserBias(const std::vector<std::string>& arguments, std::string source) {
