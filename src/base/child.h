@@ -2,7 +2,7 @@
 // Work on a file that nobody vouches for, done by a library that trusts it: in a process of its own, so that what it
 // breaks, fills or never finishes is an error here and nothing else.
 //
-// That process runs a program of its own, too (src/reader), not a copy of this one: in a copy, a lock that another
+// That process runs a program of its own, too (src/child), not a copy of this one: in a copy, a lock that another
 // thread held at that moment is held for ever, be it of the allocator, of the compiler or of the loader.
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct ChildWork {
   std::string name;                    // one of those that the program has
   std::vector<std::string> arguments;  // without zero bytes
   std::string_view input = {};
-  std::string program = "gnomon-reader";  // by its path, or looked for as findProgram (base/program_place.h) does
+  std::string program;  // by its path, or looked for as findProgram (base/program_place.h) does
 };
 
 // What the work returns. Throws what it throws, as WorldError of the same text; and of limits that are exceeded, or a

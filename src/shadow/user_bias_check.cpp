@@ -230,9 +230,12 @@ void checkUserBias(const UserBias& bias) {
   const std::string shaders = gpu::shaderDirectory().string();
   const gpu::Hash128 text = gpu::hashText(shaders + '\n' + bias.source);
   if (passed.has(text)) return;
-  const std::string sizes =
-      runInChild({.file = bias.path, .name = kUserBiasWork, .arguments = {shaders, bias.path}, .input = bias.source},
-                 kCompilerLimits);
+  const std::string sizes = runInChild({.file = bias.path,
+                                        .name = kUserBiasWork,
+                                        .arguments = {shaders, bias.path},
+                                        .input = bias.source,
+                                        .program = "gnomon-compiler"},
+                                       kCompilerLimits);
   std::istringstream numbers(sizes);
   uint64_t values = 0, instructions = 0;
   numbers >> values >> instructions;

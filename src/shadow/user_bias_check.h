@@ -16,7 +16,7 @@ void checkUserBias(const UserBias& bias);
 // The line, from 1, of a loop that nothing ends: its condition is always true, and it has no break or return. 0: none.
 int endlessLoop(const std::string& glsl);
 
-// What checkUserBias has done in the process of its own (src/reader). Arguments: the folder of shaders, empty for the
+// What checkUserBias has done in the process of its own (src/child). Arguments: the folder of shaders, empty for the
 // embedded ones, and the bias's path. Returns "VALUES INSTRUCTIONS": of its largest type, and of all its functions
 // written out at every call.
 inline constexpr const char* kUserBiasWork = "user-bias";

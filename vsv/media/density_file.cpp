@@ -213,8 +213,12 @@ DensityFile readDensityFile(const std::string& fileAndGrid) {
   const uint64_t size = bytes.size();
   const ChildLimits limits{.bytes = kBytesAlways + kBytesPerByte * size,
                            .seconds = kSecondsAlways + static_cast<int>(size / kBytesPerSecond)};
-  const std::string packed = runInChild(
-      {.file = named.path, .name = kDensityWork, .arguments = {named.path, named.grid}, .input = bytes}, limits);
+  const std::string packed = runInChild({.file = named.path,
+                                         .name = kDensityWork,
+                                         .arguments = {named.path, named.grid},
+                                         .input = bytes,
+                                         .program = "gnomon-reader"},
+                                        limits);
   bytes = {};
   return unpacked(named, packed);
 }

@@ -27,7 +27,7 @@ DensityFile readDensityFile(const std::string& fileAndGrid);
 // The same of bytes, and in this process, which a damaged file may then crash.
 DensityFile readDensityBytes(const std::string& fileAndGrid, std::string bytes);
 
-// What readDensityFile has done in the process of its own (src/reader): facts, name and grid as bytes.
+// What readDensityFile has done in the process of its own (src/child): facts, name and grid as bytes.
 inline constexpr const char* kDensityWork = "density";
 std::string packedDensity(const std::vector<std::string>& pathAndGrid, std::string bytes);
 
