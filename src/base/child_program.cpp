@@ -81,6 +81,8 @@ int runAsChild(int argc, char** argv, std::initializer_list<std::pair<std::strin
     std::fputs("gnomon starts this program itself, to read what may be damaged; run gnomon\n", stderr);
     return 2;
   }
+  // Sanitizers catch these and end with an exit code, which tells less.
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) return 1;  // it ended before that
   limit(RLIMIT_CORE, 0);
