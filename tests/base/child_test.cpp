@@ -110,7 +110,7 @@ TEST(ChildTest, OtherThreadsDoNotHoldItUp) {
         std::thread([] {}).join();
       }
     });
-  for (int i = 0; i < 40; ++i) EXPECT_EQ(made("echo", {}, "abc", {.bytes = 256 << 20, .seconds = 20}), "abc");
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(made("echo", {}, "abc", {.bytes = 256 << 20, .seconds = 20}), "abc");
   isDone = true;
   for (std::thread& thread : threads) thread.join();
 }
