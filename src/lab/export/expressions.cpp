@@ -54,9 +54,19 @@ std::string largest(const std::vector<std::string>& types) {
 
 class Types {
  public:
-  Types(const Variables& variables, const Program& program) : variables_(variables), program_(program) {}
+  Types(const Variables& variables, const Program& program, ExprTypes* known)
+      : variables_(variables), program_(program), known_(known) {}
 
   std::string of(const Expr& e) const {
+    if (known_ == nullptr) return compute(e);
+    if (const auto found = known_->find(&e); found != known_->end()) return found->second;
+    const std::string type = compute(e);
+    known_->emplace(&e, type);
+    return type;
+  }
+
+ private:
+  std::string compute(const Expr& e) const {
     switch (e.kind) {
       case Expr::Kind::Atom:
         return ofAtom(e.text);
@@ -79,7 +89,6 @@ class Types {
     return "";
   }
 
- private:
   std::string ofAtom(const std::string& text) const {
     if (isNumber(atom(text))) {
       const bool isHexadecimal = text.starts_with("0x") || text.starts_with("0X");
@@ -141,6 +150,7 @@ class Types {
 
   const Variables& variables_;
   const Program& program_;
+  ExprTypes* known_;
 };
 
 class Walk {
@@ -200,8 +210,8 @@ class Walk {
 
 }  // namespace
 
-std::string typeOf(const Expr& expr, const Variables& variables, const Program& program) {
-  return Types(variables, program).of(expr);
+std::string typeOf(const Expr& expr, const Variables& variables, const Program& program, ExprTypes* known) {
+  return Types(variables, program, known).of(expr);
 }
 
 bool isScalar(const std::string& type) {

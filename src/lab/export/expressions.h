@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace gnomon::code {
@@ -18,7 +19,9 @@ using Variables = std::vector<Variable>;
 
 // "float", "vec3", "mat4", "Receiver", "float[]"; empty where it is not known. A built-in function's is that of its
 // arguments' largest: vec3 of isnan(vec3), where GLSL has bvec3.
-std::string typeOf(const Expr& expr, const Variables& variables, const Program& program);
+// `known`: those of a walk, which adds to them; each takes as long as the first time otherwise.
+using ExprTypes = std::unordered_map<const Expr*, std::string>;
+std::string typeOf(const Expr& expr, const Variables& variables, const Program& program, ExprTypes* known = nullptr);
 
 bool isScalar(const std::string& type);
 bool isVector(const std::string& type);  // "uvec2"

@@ -166,6 +166,11 @@ class Search {
     if (!found_) found_ = {.line = line, .word = word, .message = message};
   }
 
+  // Each expression's once: what is around it asks for it, too.
+  std::string typeOf(const Expr& e, const Variables& variables) {
+    return code::typeOf(e, variables, program_, &types_);
+  }
+
   // Of variables, parameters, members, and what functions return.
   template <typename Visit>
   void eachUserType(const Visit& visit) const {
@@ -189,7 +194,7 @@ class Search {
     const int count = componentCount(e.text);
     if (count == 0 || e.kids.size() != 1 || isNumber(e.kids[0])) return;
     const Expr& only = e.kids[0];
-    const std::string type = typeOf(only, variables, program_), name = shortly(only);
+    const std::string type = typeOf(only, variables), name = shortly(only);
     const std::string spread = fmt::format("{}({})", e.text, repeated(name, count));
     const std::string swizzle = name + "." + std::string("xyzw").substr(0, static_cast<size_t>(count));
     const auto fail = [&](const std::string& of, const std::string& remedy) {
@@ -211,7 +216,7 @@ class Search {
   void checkComparison(const Expr& e, const Variables& variables) {
     if (e.kind != Expr::Kind::Binary || (e.text != "==" && e.text != "!=")) return;
     for (const Expr& kid : e.kids) {
-      const std::string type = typeOf(kid, variables, program_);
+      const std::string type = typeOf(kid, variables);
       const Decl* decl = program_.find(type);
       const char* what = isVector(type)                                        ? "vectors"
                          : isMatrix(type)                                      ? "matrices"
@@ -261,7 +266,7 @@ class Search {
     } else if (translatedFunctions().contains(e.text) && !takesAnything(e.text)) {
       bool hasFloats = false, hasWhole = false;
       for (const Expr& kid : e.kids) {
-        const std::string type = typeOf(kid, variables, program_);
+        const std::string type = typeOf(kid, variables);
         hasFloats = hasFloats || isFloats(type);
         hasWhole = hasWhole || isWhole(type);
       }
@@ -277,7 +282,7 @@ class Search {
       if (called.params[i].qualifier.empty()) continue;
       const Expr& argument = e.kids[i];
       const bool isPart = argument.kind == Expr::Kind::Member || argument.kind == Expr::Kind::Index;
-      if (isPart && isVector(typeOf(argument.kids[0], variables, program_)))
+      if (isPart && isVector(typeOf(argument.kids[0], variables)))
         tell(e.line, fmt::format("a component as the out argument {} of {}", called.params[i].name, e.text),
              "give it a variable");
       const std::string path = pathOf(argument);
@@ -300,10 +305,10 @@ class Search {
                "write it with if");
     }
     if (e.kind == Expr::Kind::Call && e.text == "sign" && program_.find(e.text) == nullptr && e.kids.size() == 1 &&
-        isWhole(typeOf(e.kids[0], variables, program_)))
+        isWhole(typeOf(e.kids[0], variables)))
       tell(e.line, "sign of whole numbers", "write clamp(i, -1, 1)");
     if (e.kind != Expr::Kind::Binary || (e.text != "*" && e.text != "*=")) return;
-    const std::string left = typeOf(e.kids[0], variables, program_), right = typeOf(e.kids[1], variables, program_);
+    const std::string left = typeOf(e.kids[0], variables), right = typeOf(e.kids[1], variables);
     if ((isMatrix(left) && !isScalar(right)) || (isMatrix(right) && !isScalar(left)))
       tell(e.line, "the product of a matrix", "write transform(m, v)");
   }
@@ -311,6 +316,7 @@ class Search {
   const Program& program_;
   Language language_;
   std::optional<Untranslated> found_;
+  ExprTypes types_;
   std::set<const Expr*> initializers_;  // structures' constructors
 };
 

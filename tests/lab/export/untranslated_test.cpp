@@ -5,6 +5,8 @@
 #include "shadow/user_bias.h"
 #include "tests/lab/export/refusal.h"
 
+#include <ctime>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -196,6 +198,21 @@ TEST(ExportOfUserCode, FloatsAndWholeNumbersOfOneCallAreToldForMetal) {
 
 TEST(ExportOfUserCode, WholeSignsAreToldForHlsl) {
   expectRefused("", "n = sign(n); x = float(n);", {Language::Hlsl}, "sign of whole numbers");
+}
+
+// Not at the price of its length times its length.
+TEST(ExportOfUserCode, LongExpressionsAreReadOnce) {
+  std::string product = "x", all;
+  for (int i = 0; i < 900; ++i) product += "*x";
+  for (int i = 0; i < 10; ++i) all += "x = " + product + ";\n";
+  const std::string file = fmt::format("{} {{ float x = tap.z1;\n{}  return x > 0.5f; }}\n", kUserHead, all);
+  const auto timeOf = [&](Language language) {
+    const std::clock_t begin = std::clock();
+    EXPECT_EQ(refusal(file, language), "");
+    return static_cast<double>(std::clock() - begin);
+  };
+  timeOf(Language::Glsl);
+  EXPECT_LT(timeOf(Language::Hlsl), 2.5 * timeOf(Language::Glsl));
 }
 
 }  // namespace
