@@ -128,15 +128,16 @@ class Types {
     if (e.text == "all" || e.text == "any") return "bool";
     std::vector<std::string> types;
     for (const Expr& kid : e.kids) types.push_back(of(kid));
-    return ofBits(e.text, largest(types));
+    return ofOtherKind(e.text, largest(types));
   }
 
-  // Of uintBitsToFloat and such: as many of another kind.
-  static std::string ofBits(const std::string& function, const std::string& type) {
+  // Of uintBitsToFloat, isnan and such: as many of another kind.
+  static std::string ofOtherKind(const std::string& function, const std::string& type) {
+    const int count = componentCount(type);
+    if (function == "isnan" || function == "isinf") return count == 0 ? "bool" : "bvec" + std::to_string(count);
     const bool toFloat = function == "uintBitsToFloat" || function == "intBitsToFloat";
     const bool toUint = function == "floatBitsToUint";
     if (!toFloat && !toUint && function != "floatBitsToInt" && function != "findLSB") return type;
-    const int count = componentCount(type);
     if (count == 0) return toFloat ? "float" : toUint ? "uint" : "int";
     return (toFloat ? "vec" : toUint ? "uvec" : "ivec") + std::to_string(count);
   }

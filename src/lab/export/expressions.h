@@ -18,8 +18,8 @@ struct Variable {
 using Variables = std::vector<Variable>;
 
 // "float", "vec3", "mat4", "Receiver", "float[]"; empty where it is not known. A built-in function's is that of its
-// arguments' largest: vec3 of isnan(vec3), where GLSL has bvec3.
-// `known`: those of a walk, which adds to them; each takes as long as the first time otherwise.
+// arguments' largest, or as many of what it makes of them: bvec3 of isnan(vec3).
+// `known`: those that a walk has found, to which it adds; without, what is within is looked at again each time.
 using ExprTypes = std::unordered_map<const Expr*, std::string>;
 std::string typeOf(const Expr& expr, const Variables& variables, const Program& program, ExprTypes* known = nullptr);
 

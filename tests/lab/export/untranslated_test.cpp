@@ -157,6 +157,7 @@ TEST(ExportOfUserCode, WhatGlslEsDoesNotHaveIsToldByItsLine) {
     EXPECT_TRUE(said.starts_with(fmt::format("mine.glsl:2: GLSL ES 3.00 has no {}; ", word))) << said;
     EXPECT_EQ(refusal(file), "") << code;
   }
+  expectTaken("struct dmatch { float a; };\n", "dmatch m; m.a = x; x = m.a;");
   EXPECT_EQ(refusal(std::string("float fma(float a) { return a; }\n") + kUserHead + " { return fma(1.0f) > tap.z1; }\n",
                     Language::GlslEs),
             "");
@@ -198,6 +199,83 @@ TEST(ExportOfUserCode, FloatsAndWholeNumbersOfOneCallAreToldForMetal) {
 
 TEST(ExportOfUserCode, WholeSignsAreToldForHlsl) {
   expectRefused("", "n = sign(n); x = float(n);", {Language::Hlsl}, "sign of whole numbers");
+}
+
+TEST(ExportOfUserCode, NumbersOfMoreThan31BitsAreToldByTheirLine) {
+  for (const char* line :
+       {"x = float(0xFFFFFFFF);", "n = 0x80000000 >> 31; x = float(n);", "x = float(4294967295);", "n = 037777777777;"})
+    expectRefused("", line, kCLike, "of more than 31 bits");
+  expectTaken("", "n = int(0xFFFFFFFFu) + 0x7FFFFFFF + 2147483647; x = float(n) + 1e30f;");
+}
+
+TEST(ExportOfUserCode, TheLowestBitIsAnInt) {
+  for (const char* line : {"if (findLSB(uint(n)) < 0) x = 1.0f;", "x = float(findLSB(uint(n)));",
+                           "n = max(findLSB(uint(n)), 0);", "x = findLSB(uint(n));"})
+    expectRefused("", line, {Language::Hlsl}, "write int(findLSB(...))");
+  expectTaken("", "int i = findLSB(uint(n)); n = (findLSB(uint(n))); x = float(i) + float(int(findLSB(uint(n))));");
+  for (const char* line : {"n = findLSB(n);", "ivec2 i = findLSB(uvec2(3u, 4u)); n = i.x;"})
+    expectRefused("", line, {Language::GlslEs}, "GLSL ES 3.00 has no findLSB but of one uint");
+}
+
+// By 0 or 1 a NaN that is not chosen is the result.
+TEST(ExportOfUserCode, MixByABoolIsToldByItsLine) {
+  for (const char* line : {"x = mix(x, 1.0f, isnan(x));", "x = mix(x, 1.0f, n > 0);", "v = mix(v, v.yzx, isinf(v));"})
+    expectRefused("", line, kCLike, "mix by true or false");
+  expectRefused("", "n = mix(n, 16777217, x > 0.0f);", {Language::GlslEs, Language::Hlsl}, "mix");
+  expectTaken("", "x = isnan(x) ? 1.0f : x; x = mix(x, 1.0f, v.x);");
+}
+
+TEST(ExportOfUserCode, LettersOfTexturesAreToldByTheirLine) {
+  expectRefused("", "x = v.s;", kCLike, ".s of a vector");
+  expectRefused("", "x = v.tp.y;", kCLike, ".tp of a vector");
+  expectTaken("struct Mine { float s; };\n", "Mine m; m.s = v.r; x = m.s + v.rgb.b;");
+}
+
+TEST(ExportOfUserCode, MoreNumbersThanAVectorHoldsAreToldByTheirLine) {
+  for (const char* line :
+       {"ivec2 i = ivec2(v); x = float(i.x);", "x = float(v);", "vec3 w = vec3(v.xy, v.xy); x = w.x;"})
+    expectRefused("", line, kCLike, "write .x, .xy or .xyz behind the last");
+  expectTaken("", "ivec2 i = ivec2(v.xy); x = float(i.x) + float(v.x); vec4 w = vec4(v.xy, v.yx); x += w.x;");
+}
+
+TEST(ExportOfUserCode, AFunctionsNameIsNoVariablesWhereItChanges) {
+  for (const char* line : {"float inversesqrt = inversesqrt(x); x = inversesqrt;",
+                           "{ float inversesqrt = 2.0f; x = inversesqrt; } x = inversesqrt(x);"})
+    expectRefused("", line, kCLike, "a variable inversesqrt beside the function inversesqrt");
+  expectRefused("", "{ float fract = 2.0f; x = fract; } x = fract(x);", {Language::Hlsl}, "rename it");
+  expectTaken("", "{ float abs = 2.0f; x = abs; } x = abs(x);");
+}
+
+TEST(ExportOfUserCode, ArraysAreNoValuesInMetal) {
+  for (const char* line : {"float a[2], b[2]; a[0] = a[1] = x; b = a; x = b[1];",
+                           "float a[2]; a[0] = a[1] = x; float b[2] = a; x = b[1];"})
+    expectRefused("", line, {Language::Msl}, "an array assigned as a whole");
+  expectTaken("struct Mine { float a[2]; };\n", "Mine m; m.a[0] = m.a[1] = x; Mine k = m; m = k; x = m.a[1];");
+}
+
+TEST(ExportOfUserCode, WhatMetalsFunctionsDoNotTakeIsToldByItsLine) {
+  EXPECT_TRUE(refusal(std::string("const float kRoot = sqrt(2.0f);\n") + kUserHead + " { return tap.z1 > kRoot; }\n",
+                      Language::Msl)
+                  .starts_with("mine.glsl:1: sqrt in the value of the constant kRoot"));
+  for (const auto& [line, what] :
+       {std::pair{"x = length(x);", "length of a number"}, std::pair{"x = dot(x, 2.0f);", "dot of a number"},
+        std::pair{"n = sign(n);", "sign of whole numbers"}, std::pair{"x = float(max(1u, n));", "max of int and uint"},
+        std::pair{"uvec2 u = uvec2(3u, 4u); x = uintBitsToFloat(u.x);", "uintBitsToFloat of a member"},
+        std::pair{"uvec3 u = floatBitsToUint(v); x = float(u.x);", "floatBitsToUint of a vector"}})
+    expectRefused("", line, {Language::Msl}, what);
+  expectTaken("const vec3 kUp = vec3(0.0f, 1.0f, 0.0f);\n",
+              "x = dot(v, kUp) + float(max(1u, uint(n))); uint u = floatBitsToUint(x); x = uintBitsToFloat(u);");
+}
+
+TEST(ExportOfUserCode, OutArgumentsOfMetalAreOfTheirType) {
+  expectRefused("void put(out int a) { a = 1; }\n", "put(x);", {Language::Msl}, "another type than int");
+  expectRefused("void put(out float a) { a = 1.0f; }\n", "put((v.x)); x = v.x;", {Language::Msl}, "a component");
+  expectTaken("void put(out float a) { a = 1.0f; }\n", "put((x)); float a[2]; put(a[1]); x = a[1];");
+}
+
+TEST(ExportOfUserCode, StructuresOfAConditionAreToldForHlsl) {
+  expectRefused("struct Mine { float a; };\n", "Mine m, k; m.a = k.a = x; Mine one = x > 0.5f ? m : k; x = one.a;",
+                {Language::Hlsl}, "? of structures");
 }
 
 // Not at the price of its length times its length.
