@@ -273,6 +273,22 @@ TEST(ExportOfUserCode, OverloadsAreRefused) {
   EXPECT_EQ(said, "mine.glsl:2: f is defined twice; exported code has no overloads, rename one");
 }
 
+// Gnomon's code would call them instead, or they themselves.
+TEST(ExportOfUserCode, OverloadsOfBuiltInFunctionsAreRefused) {
+  for (const auto& [function, call] :
+       {std::pair{"float floor(int a) { float b = float(a); return b * 2.0f; }", "floor(n)"},
+        std::pair{"float tanh(vec2 a) { return tanh(a.x) + tanh(a.y); }", "tanh(vec2(x, x))"},
+        std::pair{"float asinh(float a, float b) { float c = a * b; return c + a; }", "asinh(asinh(x), x)"}}) {
+    const std::string file = fmt::format("\n{}\n{} {{ float x = tap.z1; int n = tap.slice; return {} > 0.5f; }}\n",
+                                         function, kUserHead, call);
+    for (const Language language : {Language::Glsl, Language::GlslEs, Language::Hlsl, Language::Msl}) {
+      const std::string said = refusal(file, language);
+      EXPECT_TRUE(said.starts_with("mine.glsl:2: ") && mentions(said, " is a built-in function, too")) << said;
+    }
+  }
+  expectTaken("float tanh(float a, float b) { float c = a * b; return c + a; }\n", "x = tanh(x, 2.0f);");
+}
+
 TEST(ExportOfUserCode, ADeclarationOfOneCaseIsNotUsedInAnother) {
   const auto file = [](const char* cases) {
     return fmt::format(
