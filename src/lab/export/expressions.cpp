@@ -97,8 +97,7 @@ class Types {
       return isHexadecimal || text.find_first_of(".eEfF") == std::string::npos ? "int" : "float";
     }
     if (text == "true" || text == "false") return "bool";
-    for (size_t i = variables_.size(); i > 0; --i)
-      if (variables_[i - 1].name == text) return variables_[i - 1].type;
+    if (const std::string* type = variables_.typeOf(text)) return *type;
     const Decl* decl = program_.find(text);
     return decl != nullptr && decl->kind == Decl::Kind::Constant ? decl->type : "";
   }
@@ -159,7 +158,7 @@ class Walk {
   explicit Walk(const std::function<void(const Expr&, const Variables&)>& visit) : visit_(visit) {}
 
   void through(const Decl& decl) {
-    for (const Param& param : decl.params) variables_.push_back({param.name, param.type});
+    for (const Param& param : decl.params) variables_.add(param.name, param.type);
     expr(decl.value);
     for (const Stmt& member : decl.members)
       for (const Declarator& declared : member.names) expr(declared.count);
@@ -176,9 +175,9 @@ class Walk {
   }
 
   void scope(const std::vector<Stmt>& body) {
-    const size_t outside = variables_.size();
+    const size_t outside = variables_.count();
     statements(body);
-    variables_.resize(outside);
+    variables_.dropFrom(outside);
   }
 
   void statements(const std::vector<Stmt>& body) {
@@ -189,9 +188,9 @@ class Walk {
     for (const Declarator& declared : stmt.names) {
       expr(declared.count);
       expr(declared.value);
-      variables_.push_back({declared.name, stmt.type + std::string(declared.count ? kArray : "")});
+      variables_.add(declared.name, stmt.type + std::string(declared.count ? kArray : ""));
     }
-    const size_t outside = variables_.size();
+    const size_t outside = variables_.count();
     const bool isLoop = stmt.kind == Stmt::Kind::For;
     if (isLoop) statements(stmt.other);
     expr(stmt.expr);
@@ -202,7 +201,7 @@ class Walk {
       for (const Expr& label : one.labels) expr(label);
       statements(one.body);
     }
-    variables_.resize(outside);
+    variables_.dropFrom(outside);
   }
 
   const std::function<void(const Expr&, const Variables&)>& visit_;
@@ -210,6 +209,24 @@ class Walk {
 };
 
 }  // namespace
+
+const std::string* Variables::typeOf(const std::string& name) const {
+  const auto found = types_.find(name);
+  return found == types_.end() ? nullptr : &found->second.back();
+}
+
+void Variables::add(const std::string& name, const std::string& type) {
+  names_.push_back(name);
+  types_[name].push_back(type);
+}
+
+void Variables::dropFrom(size_t count) {
+  for (; names_.size() > count; names_.pop_back()) {
+    const auto last = types_.find(names_.back());
+    last->second.pop_back();
+    if (last->second.empty()) types_.erase(last);
+  }
+}
 
 std::string typeOf(const Expr& expr, const Variables& variables, const Program& program, ExprTypes* known) {
   return Types(variables, program, known).of(expr);

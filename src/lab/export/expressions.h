@@ -10,12 +10,20 @@
 
 namespace gnomon::code {
 
-struct Variable {
-  std::string name;
-  std::string type;  // of an array with "[]" behind it
-};
 // Those that are seen from a place; of several with one name the last counts.
-using Variables = std::vector<Variable>;
+class Variables {
+ public:
+  // "vec3", of an array "vec3[]"; null where there is no variable of the name.
+  const std::string* typeOf(const std::string& name) const;
+
+  size_t count() const { return names_.size(); }
+  void add(const std::string& name, const std::string& type);
+  void dropFrom(size_t count);  // the last
+
+ private:
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::vector<std::string>> types_;  // by name
+};
 
 // "float", "vec3", "mat4", "Receiver", "float[]"; empty where it is not known. A built-in function's is that of its
 // arguments' largest, or as many of what it makes of them: bvec3 of isnan(vec3).

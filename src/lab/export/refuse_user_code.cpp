@@ -156,7 +156,7 @@ class Refusal {
   void ofBuiltIns() {
     eachUserExpr([&](const Expr& e, const Variables& variables) {
       if (e.kind != Expr::Kind::Atom || isNumber(e) || e.text == "true" || e.text == "false") return;
-      const bool isVariable = std::ranges::any_of(variables, [&](const Variable& it) { return it.name == e.text; });
+      const bool isVariable = variables.typeOf(e.text) != nullptr;
       if (isVariable || folded_.contains(e.text) || program_.find(e.text) != nullptr) return;
       failAt(e.line, fmt::format("{} is the calling shader's, which export does not know; write it without", e.text));
     });

@@ -2,6 +2,7 @@
 #include "shadow/user_bias.h"
 #include "tests/lab/export/refusal.h"
 
+#include <ctime>
 #include <regex>
 
 #include <fmt/format.h>
@@ -172,6 +173,21 @@ TEST(ExportOfUserCode, WhatIsTooDeepOrTooLongIsToldByItsLine) {
   std::string chain = "#define A0 1.0f\n";
   for (int i = 0; i < 1000; ++i) chain += fmt::format("#define A{} A{}\n", i + 1, i);
   isTold(chain + "const float big = A1000;", "deep within macros");
+}
+
+// A name is found as fast whether it is the first or the last of many.
+TEST(ExportOfUserCode, ManyVariablesAreNoHindrance) {
+  std::string declared = "float n0 = 1.0f;";
+  for (int i = 1; i < 8000; ++i) declared += fmt::format(" float n{} = 1.0f;", i);
+  const auto timeOf = [&](const std::string& name) {
+    const std::string file = fmt::format("{} {{ {}\n{} return {} > 0.5f; }}\n", kUserHead, declared,
+                                         repeated(fmt::format("{0} = {0};\n", name), 10000), name);
+    const std::clock_t begin = std::clock();
+    EXPECT_EQ(refusal(file), "");
+    return static_cast<double>(std::clock() - begin);
+  };
+  timeOf("n0");  // Gnomon's own code is read once
+  EXPECT_LT(timeOf("n7999"), 2.5 * timeOf("n0"));
 }
 
 TEST(ExportOfUserCode, NamesThatAreFoldedAreRefused) {
