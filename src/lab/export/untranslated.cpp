@@ -335,6 +335,7 @@ class Search {
     if (e.kind != Expr::Kind::Call) return;
     if (const Decl* called = program_.find(e.text)) {
       checkReferences(e, *called, variables);
+      if (called->kind == Decl::Kind::Struct) checkMembers(e, *called, variables);
     } else if (translatedFunctions().contains(e.text)) {
       checkArguments(e, variables);
     }
@@ -356,6 +357,17 @@ class Search {
     if ((hasInts || hasUints) && (hasFloats || !takesWholeNumbers(e.text)))
       tell(e.line, fmt::format("{} of {}whole numbers", e.text, hasFloats ? "floats and " : ""),
            "write 0.0f for 0, float(i) for i");
+  }
+
+  // In braces no number becomes one of another type, but where it is written out.
+  void checkMembers(const Expr& e, const Decl& made, const Variables& variables) {
+    size_t i = 0;
+    for (const Stmt& member : made.members)
+      for (size_t k = 0; k < member.names.size() && i < e.kids.size(); ++k, ++i)
+        if (const std::string type = typeOf(e.kids[i], variables);
+            isWhole(type) && type != member.type && !isNumber(e.kids[i]))
+          tell(e.line, fmt::format("{} as the {} {} of {}", type, member.type, member.names[k].name, e.text),
+               fmt::format("write {}(...)", member.type));
   }
 
   // These take one number; and bits that are a member are those of three (print_code.cpp).

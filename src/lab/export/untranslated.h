@@ -20,7 +20,8 @@ struct Untranslated {
 //     one value, and of more than they hold; the letters stpq; mix by a bool; constructors of structures but in a
 //     declaration; a variable's name in what it begins with, or a function's that has another name there;
 //   - Metal: out arguments that are components, of another type or one variable twice; numbers of several types in one
-//     call; functions of vectors of numbers, and of bits of vectors; arrays as values; constants that call functions;
+//     call, and a structure's of other types than its own; numbers where functions take vectors, and the bits of
+//     vectors; arrays as values; constants that call functions;
 //   - HLSL: what writes to a variable to the right of &&, || and ?, which it always evaluates; structures in ?;
 //     products of matrices; findLSB but as an int.
 std::optional<Untranslated> firstUntranslated(const Program& program, Language language);

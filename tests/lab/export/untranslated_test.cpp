@@ -190,6 +190,13 @@ TEST(ExportOfUserCode, AStructuresConstructorIsOnlyOfADeclaration) {
   expectTaken(before, "Mine m = Mine(x, 2.0f); x = sum(same(m));");
 }
 
+TEST(ExportOfUserCode, AStructuresNumbersAreOfItsTypesInMetal) {
+  const std::string before = "struct Mine { int i, k; float a; };\n";
+  for (const char* line : {"Mine m = Mine(n, 1, n); x = m.a;", "Mine m = Mine(1, n, n + 1); x = m.a;"})
+    expectRefused(before, line, {Language::Msl}, "int as the float a of Mine");
+  expectTaken(before, "Mine m = Mine(n, n + 1, float(n)); Mine k = Mine(1, 2, 3); x = m.a + k.a;");
+}
+
 TEST(ExportOfUserCode, FloatsAndWholeNumbersOfOneCallAreToldForMetal) {
   for (const char* line : {"x = max(x, 0);", "x = clamp(x, 0, 1);", "x = min(1, v.x);", "x = mix(x, 1.0f, 0);",
                            "x = pow(x, 2);", "x = step(0, x);", "x = max(x, n);", "x = sqrt(2);"})
