@@ -165,9 +165,8 @@ void addBiasFlags(CLI::App& verb, BiasFlags& flags, const char* defaultBiases, c
       "GLSL file with your own bias (docs/add_a_bias.md): compare scores it beside the others and takes several; "
       "render and view draw it in place of the default"));
   verb.add_option("--bias-file-knob", flags.biasFileKnobs,
-                  "NAME=VALUE: a parameter of your bias, in its unit, in each file that has it (VALUE alone if it has "
-                  "only one); "
-                  "default: the file's; may be repeated")
+                  "NAME=VALUE: a parameter of your bias, in its unit, in each file that has it "
+                  "(VALUE alone if it has only one); default: the file's; may be repeated")
       ->allow_extra_args(false);
   offersSomeOf(verb.add_option("--filters", flags.filters, howMany + ": " + filterChoices())->capture_default_str(),
                namesOf(filters()));

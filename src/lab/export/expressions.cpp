@@ -54,9 +54,19 @@ std::string largest(const std::vector<std::string>& types) {
 
 class Types {
  public:
-  Types(const Variables& variables, const Program& program) : variables_(variables), program_(program) {}
+  Types(const Variables& variables, const Program& program, ExprTypes* known)
+      : variables_(variables), program_(program), known_(known) {}
 
   std::string of(const Expr& e) const {
+    if (known_ == nullptr) return compute(e);
+    if (const auto found = known_->find(&e); found != known_->end()) return found->second;
+    const std::string type = compute(e);
+    known_->emplace(&e, type);
+    return type;
+  }
+
+ private:
+  std::string compute(const Expr& e) const {
     switch (e.kind) {
       case Expr::Kind::Atom:
         return ofAtom(e.text);
@@ -79,7 +89,6 @@ class Types {
     return "";
   }
 
- private:
   std::string ofAtom(const std::string& text) const {
     if (isNumber(atom(text))) {
       const bool isHexadecimal = text.starts_with("0x") || text.starts_with("0X");
@@ -88,8 +97,7 @@ class Types {
       return isHexadecimal || text.find_first_of(".eEfF") == std::string::npos ? "int" : "float";
     }
     if (text == "true" || text == "false") return "bool";
-    for (size_t i = variables_.size(); i > 0; --i)
-      if (variables_[i - 1].name == text) return variables_[i - 1].type;
+    if (const std::string* type = variables_.typeOf(text)) return *type;
     const Decl* decl = program_.find(text);
     return decl != nullptr && decl->kind == Decl::Kind::Constant ? decl->type : "";
   }
@@ -119,15 +127,16 @@ class Types {
     if (e.text == "all" || e.text == "any") return "bool";
     std::vector<std::string> types;
     for (const Expr& kid : e.kids) types.push_back(of(kid));
-    return ofBits(e.text, largest(types));
+    return ofOtherKind(e.text, largest(types));
   }
 
-  // Of uintBitsToFloat and such: as many of another kind.
-  static std::string ofBits(const std::string& function, const std::string& type) {
+  // Of uintBitsToFloat, isnan and such: as many of another kind.
+  static std::string ofOtherKind(const std::string& function, const std::string& type) {
+    const int count = componentCount(type);
+    if (function == "isnan" || function == "isinf") return count == 0 ? "bool" : "bvec" + std::to_string(count);
     const bool toFloat = function == "uintBitsToFloat" || function == "intBitsToFloat";
     const bool toUint = function == "floatBitsToUint";
     if (!toFloat && !toUint && function != "floatBitsToInt" && function != "findLSB") return type;
-    const int count = componentCount(type);
     if (count == 0) return toFloat ? "float" : toUint ? "uint" : "int";
     return (toFloat ? "vec" : toUint ? "uvec" : "ivec") + std::to_string(count);
   }
@@ -141,6 +150,7 @@ class Types {
 
   const Variables& variables_;
   const Program& program_;
+  ExprTypes* known_;
 };
 
 class Walk {
@@ -148,7 +158,7 @@ class Walk {
   explicit Walk(const std::function<void(const Expr&, const Variables&)>& visit) : visit_(visit) {}
 
   void through(const Decl& decl) {
-    for (const Param& param : decl.params) variables_.push_back({param.name, param.type});
+    for (const Param& param : decl.params) variables_.add(param.name, param.type);
     expr(decl.value);
     for (const Stmt& member : decl.members)
       for (const Declarator& declared : member.names) expr(declared.count);
@@ -165,9 +175,9 @@ class Walk {
   }
 
   void scope(const std::vector<Stmt>& body) {
-    const size_t outside = variables_.size();
+    const size_t outside = variables_.count();
     statements(body);
-    variables_.resize(outside);
+    variables_.dropFrom(outside);
   }
 
   void statements(const std::vector<Stmt>& body) {
@@ -178,9 +188,9 @@ class Walk {
     for (const Declarator& declared : stmt.names) {
       expr(declared.count);
       expr(declared.value);
-      variables_.push_back({declared.name, stmt.type + std::string(declared.count ? kArray : "")});
+      variables_.add(declared.name, stmt.type + std::string(declared.count ? kArray : ""));
     }
-    const size_t outside = variables_.size();
+    const size_t outside = variables_.count();
     const bool isLoop = stmt.kind == Stmt::Kind::For;
     if (isLoop) statements(stmt.other);
     expr(stmt.expr);
@@ -191,7 +201,7 @@ class Walk {
       for (const Expr& label : one.labels) expr(label);
       statements(one.body);
     }
-    variables_.resize(outside);
+    variables_.dropFrom(outside);
   }
 
   const std::function<void(const Expr&, const Variables&)>& visit_;
@@ -200,8 +210,26 @@ class Walk {
 
 }  // namespace
 
-std::string typeOf(const Expr& expr, const Variables& variables, const Program& program) {
-  return Types(variables, program).of(expr);
+const std::string* Variables::typeOf(const std::string& name) const {
+  const auto found = types_.find(name);
+  return found == types_.end() ? nullptr : &found->second.back();
+}
+
+void Variables::add(const std::string& name, const std::string& type) {
+  names_.push_back(name);
+  types_[name].push_back(type);
+}
+
+void Variables::dropFrom(size_t count) {
+  for (; names_.size() > count; names_.pop_back()) {
+    const auto last = types_.find(names_.back());
+    last->second.pop_back();
+    if (last->second.empty()) types_.erase(last);
+  }
+}
+
+std::string typeOf(const Expr& expr, const Variables& variables, const Program& program, ExprTypes* known) {
+  return Types(variables, program, known).of(expr);
 }
 
 bool isScalar(const std::string& type) {

@@ -5,20 +5,31 @@
 
 #include <functional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace gnomon::code {
 
-struct Variable {
-  std::string name;
-  std::string type;  // of an array with "[]" behind it
-};
 // Those that are seen from a place; of several with one name the last counts.
-using Variables = std::vector<Variable>;
+class Variables {
+ public:
+  // "vec3", of an array "vec3[]"; null where there is no variable of the name.
+  const std::string* typeOf(const std::string& name) const;
+
+  size_t count() const { return names_.size(); }
+  void add(const std::string& name, const std::string& type);
+  void dropFrom(size_t count);  // the last
+
+ private:
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::vector<std::string>> types_;  // by name
+};
 
 // "float", "vec3", "mat4", "Receiver", "float[]"; empty where it is not known. A built-in function's is that of its
-// arguments' largest: vec3 of isnan(vec3), where GLSL has bvec3.
-std::string typeOf(const Expr& expr, const Variables& variables, const Program& program);
+// arguments' largest, or as many of what it makes of them: bvec3 of isnan(vec3).
+// `known`: those that a walk has found, to which it adds; without, what is within is looked at again each time.
+using ExprTypes = std::unordered_map<const Expr*, std::string>;
+std::string typeOf(const Expr& expr, const Variables& variables, const Program& program, ExprTypes* known = nullptr);
 
 bool isScalar(const std::string& type);
 bool isVector(const std::string& type);  // "uvec2"

@@ -89,6 +89,21 @@ class Refusal {
     }
   }
 
+  // A user's function beside a built-in one of its name, which is still called: by Gnomon's code, by the function
+  // itself, or with another number of arguments.
+  void ofOverloads() const {
+    for (const Decl& decl : program_.decls)
+      eachExprAndItsVariables(decl, [&](const Expr& e, const Variables&) {
+        const Decl* called = e.kind == Expr::Kind::Call && e.text != "userLit" ? program_.find(e.text) : nullptr;
+        if (called == nullptr || called->file != kUserBiasFile || called->kind != Decl::Kind::Function) return;
+        if (decl.file == kUserBiasFile && decl.name != e.text && e.kids.size() == called->params.size()) return;
+        failAt(lineOfDeclared(words_, called->type, called->name),
+               fmt::format("{} is a built-in function, too, which is called beside it; exported code has no overloads, "
+                           "rename it",
+                           e.text));
+      });
+  }
+
   // What simplify() replaces wherever it stands, or lets go of.
   void ofEffects(const Known& known) const {
     eachUserExpr([&](const Expr& e) {
@@ -141,7 +156,7 @@ class Refusal {
   void ofBuiltIns() {
     eachUserExpr([&](const Expr& e, const Variables& variables) {
       if (e.kind != Expr::Kind::Atom || isNumber(e) || e.text == "true" || e.text == "false") return;
-      const bool isVariable = std::ranges::any_of(variables, [&](const Variable& it) { return it.name == e.text; });
+      const bool isVariable = variables.typeOf(e.text) != nullptr;
       if (isVariable || folded_.contains(e.text) || program_.find(e.text) != nullptr) return;
       failAt(e.line, fmt::format("{} is the calling shader's, which export does not know; write it without", e.text));
     });
@@ -318,6 +333,7 @@ void refuseUserCode(const Program& program, const UserBias& user, const Known& k
                     const std::set<std::string>& taken) {
   Refusal refusal(program, user, language);
   refusal.ofNames(known, taken);
+  refusal.ofOverloads();
   refusal.ofEffects(known);
   refusal.ofKnobs();
   refusal.ofBuiltIns();

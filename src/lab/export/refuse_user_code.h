@@ -15,7 +15,7 @@ namespace gnomon::code {
 //
 // Throws WorldError, "mine.glsl:12: ...", where the user's file
 //   - declares a name that simplify() folds wherever it stands, whatever it is: `kind`, `reach`;
-//   - defines a function twice, since exported code has no overloads;
+//   - defines a function twice, or one beside a built-in one that is called, since exported code has no overloads;
 //   - declares a name that is another's once it has export's prefix, or the "_" behind a word of the language's own;
 //   - calls a variable as a structure is called, or uses one in another case of the switch than declares it;
 //   - does anything with knobs but read params.knobs[kUserWidth];

@@ -3,105 +3,29 @@
 #include "scene/mesh_links.h"
 #include "shadow/map_image.h"
 #include "shadow/user_bias.h"
+#include "tests/base/places.h"
 #include "tests/judge/lit_map.h"
+#include "tests/lab/export/compile_export.h"
 #include "tests/lab/export/what_to_export.h"
 
-#include "tests/base/places.h"
+#include <regex>
 
 #include <fmt/format.h>
-#include <glslang/Public/ResourceLimits.h>
-#include <glslang/Public/ShaderLang.h>
-#include <glslang/SPIRV/GlslangToSpv.h>
-
-#include <cstdlib>
-#include <regex>
 
 namespace gnomon {
 namespace {
 
 using code::Language;
+using test::calls;
 using test::choiceOf;
+using test::compiled;
 using test::Kind;
 using test::kinds;
 using test::kUserHead;
 using test::LitMap;
 using test::mentions;
+using test::metalErrors;
 
-// How the file's functions are called: by the names in its head.
-std::string calls(const std::string& text, const char* pixel, const char* place, const char* normal) {
-  const size_t at = text.find("GnomonReceiver gnomonReceiverAt(");
-  const std::string head = text.substr(at, text.find(')', at) - at);
-  std::string receiver = std::string("gnomonReceiverAt(frame, ") + place;
-  if (mentions(head, "normalW")) receiver += std::string(", ") + normal;
-  if (mentions(head, " id")) receiver += ", triangleId";
-  const size_t from = text.find("float gnomonVisibility(");
-  const std::string asked = text.substr(from, text.find(')', from) - from);
-  return std::string("gnomonVisibility(") + (mentions(asked, " map") ? "map, " : "") + receiver + ")" +
-         (mentions(asked, " pixel") ? std::string(", ") + pixel : "") + ")";
-}
-
-std::string compiled(Language language, const std::string& text) {
-  const char* const kPixel = language == Language::Hlsl ? "int2(3, 4)" : "ivec2(3, 4)";
-  const bool hasMap = mentions(text, "struct GnomonShadowMap");
-  const std::string map = hasMap ? "GnomonShadowMap map; " : "";
-  const std::string call = calls(text, kPixel, "p", "p");
-  std::string source;
-  if (language == Language::Glsl)
-    source =
-        "#version 430\n" + text +
-        "layout(location = 0) in vec3 p;\nlayout(location = 0) out vec4 colour;\nlayout(binding = 9) uniform U { " +
-        map +
-        "GnomonLightFrame frame; };\n"
-        "void main() {\n  uint triangleId = 1u;\n  colour = vec4(" +
-        call + ");\n}\n";
-  if (language == Language::GlslEs)
-    source = "#version 300 es\n" + text + "in vec3 p;\nout vec4 colour;\n" +
-             std::string(hasMap ? "uniform GnomonShadowMap map;\n" : "") +
-             "uniform GnomonLightFrame frame;\n"
-             "void main() {\n  uint triangleId = 1u;\n  colour = vec4(" +
-             call + ");\n}\n";
-  if (language == Language::Hlsl)
-    source = text + "cbuffer U : register(b0) { " + map +
-             "GnomonLightFrame frame; };\n"
-             "float main(float3 p : TEXCOORD0) : SV_Target {\n  uint triangleId = 1u;\n  return " +
-             call + ";\n}\n";
-  glslang::InitializeProcess();
-  glslang::TShader shader(EShLangFragment);
-  const char* strings[] = {source.c_str()};
-  shader.setStrings(strings, 1);
-  shader.setEntryPoint("main");
-  auto messages = EShMsgDefault;
-  if (language == Language::Glsl) {
-    shader.setEnvInput(glslang::EShSourceGlsl, EShLangFragment, glslang::EShClientVulkan, 100);
-    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
-    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
-    messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-  } else if (language == Language::Hlsl) {
-    shader.setEnvInput(glslang::EShSourceHlsl, EShLangFragment, glslang::EShClientVulkan, 100);
-    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
-    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
-    messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgReadHlsl);
-  }
-  if (!shader.parse(GetDefaultResources(), language == Language::GlslEs ? 300 : 430, false, messages))
-    return shader.getInfoLog();
-  glslang::TProgram program;
-  program.addShader(&shader);
-  return program.link(messages) ? "" : program.getInfoLog();
-}
-
-// Of what the C++ compiler parses, with a stand-in for Metal's library.
-std::string metalErrors(const std::string& text) {
-  const test::TemporaryFolder folder;
-  writeTextFile(folder.path() / "all.cpp", text);
-  const std::string command = fmt::format("{} -std=c++14 -fsyntax-only -w -I {}/export/metal {} 2>{}", GNOMON_CXX,
-                                          test::inSource(GNOMON_TEST_FOLDER), (folder.path() / "all.cpp").string(),
-                                          (folder.path() / "errors").string());
-  if (std::system(command.c_str()) == 0) return "";
-  return "failed: " + readFile(folder.path() / "errors").substr(0, 2000);
-}
-
-// GLSL, GLSL ES and HLSL by glslang. Apple's compiler there is none here, but Metal is C++14: parsed by the C++
-// compiler, with a stand-in for its library.
 TEST(Export, CompilesForEveryMapBiasAndFilter) {
   std::string metal = "#include <metal_stdlib>\n";
   size_t count = 0;
@@ -242,79 +166,6 @@ TEST(Export, WordsOfALanguageAreNoNamesThere) {
     EXPECT_TRUE(mentions(textOf(Language::Msl), fmt::format("float {}_ = ", word)));
   EXPECT_TRUE(mentions(textOf(Language::Glsl), "float matrix = "));
   EXPECT_EQ(compiled(Language::Hlsl, textOf(Language::Hlsl)), "");
-}
-
-// A user's file in a language; it is expected to compile there.
-std::string exportedOf(const std::string& glsl, Language language) {
-  const auto user = readUserBias("mine.glsl", glsl);
-  const std::string text = exportShader(choiceOf(kinds()[1], user->method, filters()[0], language)).text;
-  EXPECT_EQ(language == Language::Msl ? metalErrors(text) : compiled(language, text), "") << text;
-  return text;
-}
-
-std::string exportedBody(const std::string& body, Language language) {
-  return exportedOf(
-      fmt::format("{} {{\n  float x = tap.z1; int n = tap.slice;\n{}\n  return x > 0.5f; }}\n", kUserHead, body),
-      language);
-}
-
-constexpr Language kLanguages[] = {Language::Glsl, Language::GlslEs, Language::Hlsl, Language::Msl};
-
-TEST(Export, SignsBesideSignsStayTwo) {
-  for (const Language language : kLanguages) {
-    const std::string text = exportedOf(
-        fmt::format(
-            "#define NEG -1.0f\n{} {{ float x = tap.z1; float y = - -x; x += + +y; x *= -NEG; x = y - -x; return "
-            "- - -x > y; }}\n",
-            kUserHead),
-        language);
-    for (const char* printed : {"- -x", "+ +y", "- -1.0f", "y - -x", "- - -x"})
-      EXPECT_TRUE(mentions(text, printed)) << printed;
-  }
-}
-
-TEST(Export, NoCommentGoesOnBehindABackslash) {
-  for (const Language language : kLanguages) {
-    const std::string text =
-        exportedOf(fmt::format("// head \\ \n\n//! sentence: A folder C:\\ \n// of it \\\t\n{} {{\n  // a folder C:\\ "
-                               "\n  float x = tap.z1;  // behind "
-                               "\\ \n  if (x > 1.0f) {{  // within \\ \n    x = 1.0f;\n  }}\n  return x > 0.5f; }}\n",
-                               kUserHead),
-                   language);
-    EXPECT_FALSE(std::regex_search(text, std::regex("\\\\[ \t]*\n"))) << text;
-    EXPECT_TRUE(mentions(text, "// a folder C:\\"));
-  }
-}
-
-TEST(Export, CasesKeepWhatTheyHave) {
-  for (const Language language : kLanguages) {
-    const std::string labels = exportedBody(
-        "  switch (n) { case 0: x = 1.0f; break; case 1: default: x = 2.0f; break; }\n"
-        "  switch (n) { default: case 3: x += 3.0f; break; }",
-        language);
-    EXPECT_EQ(std::regex_replace(labels, std::regex("default:\\n *x \\+?= [23]"), "#").find("default:"),
-              std::string::npos)
-        << labels;
-    EXPECT_TRUE(mentions(labels, "default:\n      x = 2.0f;")) << labels;
-    EXPECT_TRUE(mentions(labels, "default:\n      x += 3.0f;")) << labels;
-    exportedBody(
-        "  switch (n) {\n  case 0: { float t = 1.0f; x += t; } { float t = 2.0f; x += t; } break;\n"
-        "  case 1: x = 1.0f; { float t = 1.0f; x += t; } break;\n"
-        "  case 2: { float t = 1.0f; x += t; } break;\n  case 3: float t = 2.0f; x = t; break;\n  }",
-        language);
-  }
-}
-
-// Which HLSL counts as a whole number.
-TEST(Export, SignsAreFloats) {
-  EXPECT_TRUE(mentions(exportedBody("  x = sign(x) / 2.0f;", Language::Hlsl), "x = (1.0f * sign(x)) / 2.0f;"));
-  EXPECT_TRUE(mentions(exportedBody("  x = sign(x) / 2.0f;", Language::Glsl), "x = sign(x) / 2.0f;"));
-}
-
-// GLSL's is -1 where there is no bit.
-TEST(Export, TheLowestBitOfNoneIsMinusOne) {
-  for (const Language language : {Language::GlslEs, Language::Msl})
-    EXPECT_TRUE(mentions(exportedBody("  x += float(findLSB(uint(n)));", language), "bits == 0u ? -1 :"));
 }
 
 // Whole, as a reader would paste it; the version and the extension come from the preamble of our shaders.

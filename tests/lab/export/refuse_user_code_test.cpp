@@ -1,11 +1,8 @@
 // What export reads of the file of a user's bias, and that it tells by line what it refuses.
-#include "base/error.h"
-#include "lab/export/expressions.h"
-#include "lab/export/visibility_source.h"
 #include "shadow/user_bias.h"
-#include "tests/lab/export/what_to_export.h"
+#include "tests/lab/export/refusal.h"
 
-#include <algorithm>
+#include <ctime>
 #include <regex>
 
 #include <fmt/format.h>
@@ -16,20 +13,11 @@ namespace {
 
 using code::Language;
 using test::choiceOf;
+using test::expectTaken;
 using test::kinds;
 using test::kUserHead;
 using test::mentions;
-
-// What export says of a user's file; empty where it is exported.
-std::string refusal(const std::string& glsl, Language language = Language::Glsl) {
-  try {
-    const auto user = readUserBias("mine.glsl", glsl);
-    exportShader(choiceOf(kinds()[1], user->method, filters()[0], language));
-  } catch (const WorldError& error) {
-    return error.what();
-  }
-  return "";
-}
+using test::refusal;
 
 std::string repeated(const std::string& text, int count) {
   std::string all;
@@ -187,6 +175,21 @@ TEST(ExportOfUserCode, WhatIsTooDeepOrTooLongIsToldByItsLine) {
   isTold(chain + "const float big = A1000;", "deep within macros");
 }
 
+// A name is found as fast whether it is the first or the last of many.
+TEST(ExportOfUserCode, ManyVariablesAreNoHindrance) {
+  std::string declared = "float n0 = 1.0f;";
+  for (int i = 1; i < 8000; ++i) declared += fmt::format(" float n{} = 1.0f;", i);
+  const auto timeOf = [&](const std::string& name) {
+    const std::string file = fmt::format("{} {{ {}\n{} return {} > 0.5f; }}\n", kUserHead, declared,
+                                         repeated(fmt::format("{0} = {0};\n", name), 10000), name);
+    const std::clock_t begin = std::clock();
+    EXPECT_EQ(refusal(file), "");
+    return static_cast<double>(std::clock() - begin);
+  };
+  timeOf("n0");  // Gnomon's own code is read once
+  EXPECT_LT(timeOf("n7999"), 2.5 * timeOf("n0"));
+}
+
 TEST(ExportOfUserCode, NamesThatAreFoldedAreRefused) {
   for (const char* name : {"known", "kind", "reach", "priorityId", "filterKnown", "lightFrame", "tap", "asking"}) {
     const std::string local = fmt::format("float f(float a) {{\n  float {} = a;\n  return a; }}\n", name);
@@ -198,129 +201,6 @@ TEST(ExportOfUserCode, NamesThatAreFoldedAreRefused) {
   }
   EXPECT_TRUE(refusal(std::string("float reach(float a) { return a; }\n") + kUserHead + " { return true; }\n")
                   .starts_with("mine.glsl:1: 'reach' "));
-}
-
-TEST(ExportOfUserCode, WhatIsNotTranslatedIsToldByItsLine) {
-  for (const auto& [code, word] :
-       {std::pair{"mat3 m = mat3(1.0f);", "mat3"}, std::pair{"float a = mod(tap.z1, 1.0f);", "mod"},
-        std::pair{"bvec2 b = bvec2(true);", "bvec2"},
-        std::pair{"vec2 f = vec2(tap.z1);", "write vec2(tap.z1, tap.z1), or"}, std::pair{"double d = 1.0;", "double"},
-        std::pair{"float t = atan(tap.z1, 2.0f);", "atan of two"}, std::pair{"float d = float(1.0lf);", "1.0lf"},
-        std::pair{"vec3 v = vec3(receiver.normalL);", "write receiver.normalL.xyz, or"},
-        std::pair{"vec2 v = vec2(tap.texel.xy);", "vec2(tap.texel.xy) of whole numbers"},
-        std::pair{"vec2 v = vec2(tap.z1 * 2.0f);", "write vec2(x, x), or"}}) {
-    const std::string file = fmt::format("{} {{\n  {}\n  return true; }}\n", kUserHead, code);
-    for (const Language language : {Language::Hlsl, Language::Msl}) {
-      const std::string said = refusal(file, language);
-      EXPECT_TRUE(said.starts_with("mine.glsl:2: ")) << said;
-      EXPECT_TRUE(mentions(said, word)) << code << ": " << said;
-      EXPECT_TRUE(mentions(said, "or export --lang glsl")) << said;
-    }
-    EXPECT_EQ(refusal(file), "") << code;
-  }
-  const std::string fine =
-      std::string(kUserHead) + " { vec3 v = vec3(0.5f); vec2 f = vec2(v.xy); return f.x > tap.z1; }\n";
-  for (const Language language : {Language::Hlsl, Language::Msl}) EXPECT_EQ(refusal(fine, language), "");
-}
-
-// Which are true or false in GLSL, and vectors of such in HLSL and Metal.
-TEST(ExportOfUserCode, ComparisonsOfVectorsAreToldByTheirLine) {
-  const std::string declared =
-      "struct Mine { vec2 v; float f[2]; };\nvec3 up() { return vec3(0.0f, 1.0f, 0.0f); }\n"
-      "Mine made() { Mine mine; mine.v = vec2(1.0f, 2.0f); mine.f[0] = mine.f[1] = 1.0f; return mine; }\n"
-      "#define AT receiver.posL\n";
-  const auto file = [&](const char* comparison) {
-    return fmt::format(
-        "{}{} {{\n  vec3 local = up(), other; float number = 1.0f; Mine mine = made();\n  bool first = number == "
-        "1.0f;\n"
-        "  {{ float local = 2.0f; first = local == number; }}\n  bool same = {};\n  return first && same; }}\n",
-        declared, kUserHead, comparison);
-  };
-  for (const char* comparison :
-       {"receiver.normalL == vec3(0.0f, 0.0f, 1.0f)", "local != other", "number == 1.0f && local == other",
-        "tap.texel == ivec2(1, 2)", "mine.v == mine.v.yx", "made().v != mine.v", "up() == other", "AT == up()",
-        "local.xy == mine.v", "local * 2.0f == other", "2.0f * local == -other", "(local) == other",
-        "normalize(local) == other", "(number > 1.0f ? local : other) == other", "mine == made()", "mine.f == mine.f"})
-    for (const Language language : {Language::Hlsl, Language::Msl}) {
-      const std::string said = refusal(file(comparison), language);
-      EXPECT_TRUE(said.starts_with("mine.glsl:9: ")) << comparison << ": " << said;
-      EXPECT_TRUE(mentions(said, "; compare them number by number, or export --lang glsl")) << said;
-      EXPECT_EQ(refusal(file(comparison)), "") << comparison;
-    }
-  for (const char* comparison :
-       {"local.x == other.y", "mine.f[1] == 1.0f", "local[0] != other[1]", "dot(local, other) == 1.0f",
-        "length(local) == number", "tap.texel.x == 3", "up().x == number", "(local.x > 1.0f) == (other.x > 1.0f)"})
-    for (const Language language : {Language::Hlsl, Language::Msl})
-      EXPECT_EQ(refusal(file(comparison), language), "") << comparison;
-}
-
-TEST(ExportOfUserCode, WhatHlslAlwaysEvaluatesIsToldByItsLine) {
-  const auto file = [](const char* condition) {
-    return fmt::format(
-        "float put(float a, out float b) {{ b = a; return a; }}\nfloat plain(float a) {{ a += 1.0f; return a; }}\n{} "
-        "{{\n"
-        "  float a = 1.0f, b = 2.0f; int i = 0; bool first = a > 0.5f && b > 1.0f;\n  bool lit = {};\n"
-        "  return first && lit; }}\n",
-        kUserHead, condition);
-  };
-  for (const char* condition :
-       {"a > 1.0f && (b = 1.0f) > 0.5f", "a > 1.0f || (b += a) > 0.5f", "a > 1.0f && i++ > 0", "a > 1.0f || --i > 0",
-        "a > 1.0f && put(a, b) > 1.0f", "a > 1.0f ? put(a, b) > 1.0f : first", "a > 1.0f ? first : !(i++ > 0)"}) {
-    const std::string said = refusal(file(condition), Language::Hlsl);
-    EXPECT_TRUE(said.starts_with("mine.glsl:5: ")) << condition << ": " << said;
-    EXPECT_TRUE(mentions(said, "write it with if, or export --lang glsl")) << said;
-    EXPECT_EQ(refusal(file(condition), Language::Msl), "") << condition;
-    EXPECT_EQ(refusal(file(condition)), "") << condition;
-  }
-  for (const char* condition : {"(b = 1.0f) > 0.5f && a > 1.0f", "put(a, b) > 1.0f || first",
-                                "a > 1.0f && plain(a) > 1.0f", "(i++ > 0 ? a : b) > 1.0f"})
-    EXPECT_EQ(refusal(file(condition), Language::Hlsl), "") << condition;
-}
-
-TEST(ExportOfUserCode, HlslSpreadsNoNumberAndMultipliesNoMatrix) {
-  const auto file = [](const char* line) {
-    return fmt::format("{} {{ int i = tap.slice;\n  {}\n  return true; }}\n", kUserHead, line);
-  };
-  for (const auto& [line, remedy] :
-       {std::pair{"ivec2 a = ivec2(i);", "write ivec2(i, i), or"},
-        std::pair{"vec4 a = GNOMON_MEMBER_ARRAY(map, mapSlices)[i].clipFromLight * vec4(receiver.posL, 1.0f);",
-                  "write transform(m, v), or"},
-        std::pair{"MapSlice s = GNOMON_MEMBER_ARRAY(map, mapSlices)[i]; vec4 a = s.clipFromLight[0] * s.lightFromClip;",
-                  "write transform(m, v), or"}}) {
-    const std::string said = refusal(file(line), Language::Hlsl);
-    EXPECT_TRUE(said.starts_with("mine.glsl:2: ") && mentions(said, remedy)) << line << ": " << said;
-    EXPECT_EQ(refusal(file(line), Language::Msl), "") << line;
-  }
-  const auto user =
-      readUserBias("mine.glsl", fmt::format("{} {{ vec3 a = vec3(0.5f), b = vec3(-.5f); uvec2 c = uvec2(3u);"
-                                            " return a.x + b.x + float(c.x) > tap.z1; }}\n",
-                                            kUserHead));
-  const auto exported = [&](Language language) {
-    return exportShader(choiceOf(kinds()[1], user->method, filters()[0], language)).text;
-  };
-  EXPECT_TRUE(mentions(exported(Language::Hlsl), "float3(0.5f, 0.5f, 0.5f), b = float3(-.5f, -.5f, -.5f)"));
-  EXPECT_TRUE(mentions(exported(Language::Hlsl), "uint2(3u, 3u)"));
-  EXPECT_TRUE(mentions(exported(Language::Msl), "float3(0.5f), b = float3(-.5f)"));
-}
-
-// What is exported beside the user's code keeps to the same.
-TEST(ExportOfUserCode, GnomonsOwnCodeHasNothingOfThis) {
-  const code::Program& program = code::readVisibility({});
-  size_t comparisons = 0, conditions = 0;
-  for (const code::Decl& decl : program.decls)
-    code::eachExprAndItsVariables(decl, [&](const code::Expr& e, const code::Variables& variables) {
-      if (e.text == "==" || e.text == "!=") {
-        ++comparisons;
-        for (const code::Expr& kid : e.kids)
-          EXPECT_FALSE(code::isVector(code::typeOf(kid, variables, program))) << decl.file << ":" << e.line;
-      }
-      if (e.text != "&&" && e.text != "||" && e.kind != code::Expr::Kind::Ternary) return;
-      ++conditions;
-      for (size_t i = 1; i < e.kids.size(); ++i)
-        EXPECT_FALSE(code::writesVariable(e.kids[i], program)) << decl.file << ":" << e.line;
-    });
-  EXPECT_GT(comparisons, 50u);
-  EXPECT_GT(conditions, 50u);
 }
 
 TEST(ExportOfUserCode, KnobsAreReadByTheirConstants) {
@@ -403,52 +283,27 @@ TEST(ExportOfUserCode, VariablesOfTheCallingShaderAreRefused) {
   EXPECT_TRUE(said.starts_with("mine.glsl:2: mapSlices is ")) << said;
 }
 
-TEST(ExportOfUserCode, WhatGlslEsDoesNotHaveIsToldByItsLine) {
-  for (const auto& [code, word] :
-       {std::pair{"float d = float(0.5lf);", "0.5lf"}, std::pair{"int i = bitCount(3u);", "bitCount"},
-        std::pair{"float a = fma(tap.z1, 2.0f, 1.0f);", "fma"}, std::pair{"float a = ldexp(tap.z1, 2);", "ldexp"},
-        std::pair{"double d = 1.0;", "double"}}) {
-    const std::string file = fmt::format("{} {{\n  {}\n  return true; }}\n", kUserHead, code);
-    const std::string said = refusal(file, Language::GlslEs);
-    EXPECT_TRUE(said.starts_with(fmt::format("mine.glsl:2: GLSL ES 3.00 has no {}; ", word))) << said;
-    EXPECT_EQ(refusal(file), "") << code;
-  }
-  EXPECT_EQ(refusal(std::string("float fma(float a) { return a; }\n") + kUserHead + " { return fma(1.0f) > tap.z1; }\n",
-                    Language::GlslEs),
-            "");
-}
-
 TEST(ExportOfUserCode, OverloadsAreRefused) {
   const std::string said = refusal(std::string("float f(float a) { return a; }\nfloat f(int a) { return 2.0f; }\n") +
                                    kUserHead + " { return f(1) > tap.z1; }\n");
   EXPECT_EQ(said, "mine.glsl:2: f is defined twice; exported code has no overloads, rename one");
 }
 
-// What is refused in some languages by the line of a body, and goes through as GLSL.
-void expectRefused(const std::string& before, const std::string& line, const std::vector<Language>& languages,
-                   const std::string& what) {
-  const std::string file =
-      fmt::format("{}{} {{ float x = tap.z1; int n = tap.slice; vec3 v = receiver.posL;\n{}\n  return x > v.y; }}\n",
-                  before, kUserHead, line);
-  const auto expected = fmt::format("mine.glsl:{}: ", 2 + std::count(before.begin(), before.end(), '\n'));
-  for (const Language language : languages) {
-    const std::string said = refusal(file, language);
-    EXPECT_TRUE(said.starts_with(expected) && mentions(said, what)) << line << ": " << said;
+// Gnomon's code would call them instead, or they themselves.
+TEST(ExportOfUserCode, OverloadsOfBuiltInFunctionsAreRefused) {
+  for (const auto& [function, call] :
+       {std::pair{"float floor(int a) { float b = float(a); return b * 2.0f; }", "floor(n)"},
+        std::pair{"float tanh(vec2 a) { return tanh(a.x) + tanh(a.y); }", "tanh(vec2(x, x))"},
+        std::pair{"float asinh(float a, float b) { float c = a * b; return c + a; }", "asinh(asinh(x), x)"}}) {
+    const std::string file = fmt::format("\n{}\n{} {{ float x = tap.z1; int n = tap.slice; return {} > 0.5f; }}\n",
+                                         function, kUserHead, call);
+    for (const Language language : {Language::Glsl, Language::GlslEs, Language::Hlsl, Language::Msl}) {
+      const std::string said = refusal(file, language);
+      EXPECT_TRUE(said.starts_with("mine.glsl:2: ") && mentions(said, " is a built-in function, too")) << said;
+    }
   }
-  EXPECT_EQ(refusal(file), "") << line;
+  expectTaken("float tanh(float a, float b) { float c = a * b; return c + a; }\n", "x = tanh(x, 2.0f);");
 }
-
-void expectTaken(const std::string& before, const std::string& line) {
-  for (const Language language : {Language::Glsl, Language::GlslEs, Language::Hlsl, Language::Msl})
-    EXPECT_EQ(refusal(fmt::format("{}{} {{ float x = tap.z1; int n = tap.slice; vec3 v = receiver.posL;\n{}\n  return "
-                                  "x > v.y; }}\n",
-                                  before, kUserHead, line),
-                      language),
-              "")
-        << line;
-}
-
-const std::vector<Language> kCLike = {Language::Hlsl, Language::Msl};
 
 TEST(ExportOfUserCode, ADeclarationOfOneCaseIsNotUsedInAnother) {
   const auto file = [](const char* cases) {
@@ -464,44 +319,6 @@ TEST(ExportOfUserCode, ADeclarationOfOneCaseIsNotUsedInAnother) {
     }
     EXPECT_EQ(refusal(file("case 1: { float y = 1.0f; x = y; } break; default: x = 1.0f;"), language), "");
   }
-}
-
-TEST(ExportOfUserCode, AVariableInItsOwnInitializerIsToldByItsLine) {
-  expectRefused("", "{ float x = x * 2.0f; v.x = x; }", kCLike, "x in the value that it begins with");
-  expectRefused("", "float distance = distance(v, v); v.x = distance;", kCLike,
-                "distance beside the function distance");
-  expectTaken("float mine(float a) { return a + 1.0f; }\n",
-              "float frac = fract(x); float mine = mine(frac); x = mine;");
-}
-
-TEST(ExportOfUserCode, WhatMetalsReferencesCannotHoldIsToldByItsLine) {
-  const std::string before =
-      "struct Mine { float a; float b[2]; vec2 c; };\nvoid inc(inout float a) { a += 1.0f; }\n"
-      "void swap(inout float a, out float b) { b = a; a = 0.0f; }\nvoid both(float a, out float b) { b = a; }\n";
-  for (const char* line : {"inc(v.y);", "inc(v[1]);", "Mine m; m.c = v.xy; inc(m.c.x); x = m.c.x;"})
-    expectRefused(before, line, {Language::Msl}, "a component");
-  for (const char* line : {"swap(x, x);", "Mine m; m.b[0] = x; swap(m.b[0], m.b[n]); x = m.b[0];"})
-    expectRefused(before, line, {Language::Msl}, "twice");
-  expectTaken(before, "Mine m; m.a = x; inc(m.a); m.b[0] = x; inc(m.b[0]); both(m.a, m.b[0]); both(x, x); x = m.b[0];");
-}
-
-TEST(ExportOfUserCode, AStructuresConstructorIsOnlyOfADeclaration) {
-  const std::string before =
-      "struct Mine { float a; float b; };\nfloat sum(Mine m) { return m.a + m.b; }\nMine same(Mine m) { return m; }\n";
-  for (const char* line : {"x = sum(Mine(x, 2.0f));", "Mine m; m = Mine(x, 2.0f); x = m.a;"})
-    expectRefused(before, line, kCLike, "Mine(...) but as what a declaration begins with");
-  expectTaken(before, "Mine m = Mine(x, 2.0f); x = sum(same(m));");
-}
-
-TEST(ExportOfUserCode, FloatsAndWholeNumbersOfOneCallAreToldForMetal) {
-  for (const char* line : {"x = max(x, 0);", "x = clamp(x, 0, 1);", "x = min(1, v.x);", "x = mix(x, 1.0f, 0);",
-                           "x = pow(x, 2);", "x = step(0, x);", "x = max(x, n);", "x = sqrt(2);"})
-    expectRefused("", line, {Language::Msl}, "0.0f");
-  expectTaken("", "n = max(n, 0); x = max(x, 0.0f) + float(abs(n)) + pow(x, 2.0f) + float(clamp(n, 0, 1));");
-}
-
-TEST(ExportOfUserCode, WholeSignsAreToldForHlsl) {
-  expectRefused("", "n = sign(n); x = float(n);", {Language::Hlsl}, "sign of whole numbers");
 }
 
 TEST(ExportOfUserCode, AVariableWithAStructuresNameIsToldByItsLine) {
