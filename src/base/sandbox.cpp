@@ -62,6 +62,8 @@ bool enterSandbox(int result) {
   filter.allow({SCMP_SYS(futex), SCMP_SYS(sched_yield), SCMP_SYS(sched_getaffinity), SCMP_SYS(getcpu), SCMP_SYS(getpid),
                 SCMP_SYS(gettid), SCMP_SYS(rt_sigaction), SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigreturn),
                 SCMP_SYS(sigaltstack)});
+  // Of threads that libraries began with, and that have hardly begun.
+  filter.allow({SCMP_SYS(rseq), SCMP_SYS(set_robust_list)});
   filter.allowWhere(SCMP_SYS(tgkill), argumentIs(0, ::getpid()));  // abort
   filter.allow({SCMP_SYS(exit), SCMP_SYS(exit_group)});
   // Sanitizers ask through a pipe what memory there is.

@@ -73,8 +73,9 @@ TEST(ChildTest, ItCanOpenStartSignalAndConnectNothing) {
   for (const char* call :
        {"make a file", "open a file", "connect", "fork", "signal", "remove a file", "run what it writes"})
     EXPECT_EQ(made("try", {call, file}), refused) << call;
-  if (!kHasSanitizers)  // which write into pipes of their own
+  if (!kHasSanitizers) {  // which write into pipes of their own
     EXPECT_EQ(made("try", {"write elsewhere"}), refused);
+  }
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 

@@ -208,7 +208,7 @@ TEST(ViewControls, ADroppedBiasIsCheckedBesideTheWindow) {
   // 2^12 products of what is no constant.
   std::string glsl = "#define M0(x) (x * x)\n";
   for (int i = 1; i < 11; ++i) glsl += fmt::format("#define M{0}(x) M{1}(x) * M{1}(x)\n", i, i - 1);
-  glsl += "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) { return M10(tap.z) > 0.5; }\n";
+  glsl += "bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap) { return M10(tap.z1) > 0.5; }\n";
   writeTextFile(file, glsl);
   EXPECT_TRUE(FileCheck::isFor(file));
   const ViewState state = stateOf("corner");
