@@ -144,7 +144,7 @@ class Types {
   std::string ofBinary(const Expr& e) const {
     static const std::set<std::string> toBool = {"==", "!=", "<", ">", "<=", ">=", "&&", "||"};
     if (toBool.contains(e.text)) return "bool";
-    if (e.isAssignment()) return of(e.kids[0]);
+    if (e.isAssignment() || e.text == "<<" || e.text == ">>") return of(e.kids[0]);
     return largest({of(e.kids[0]), of(e.kids[1])});
   }
 

@@ -87,6 +87,12 @@ TEST(Export, SignsAreFloats) {
   EXPECT_TRUE(mentions(exportedBody("  x = sign(x) / 2.0f;", Language::Glsl), "x = sign(x) / 2.0f;"));
 }
 
+TEST(Export, ShiftsByUnsignedNumbersStayInts) {
+  for (const Language language : kLanguages)
+    EXPECT_TRUE(mentions(exportedBody("  uint u = 1u; n = max(n >> 1u, 0) + max(1 << u, n);", language),
+                         "n = max(n >> 1u, 0) + max(1 << u, n);"));
+}
+
 // GLSL's is -1 where there is no bit.
 TEST(Export, TheLowestBitOfNoneIsMinusOne) {
   for (const Language language : {Language::GlslEs, Language::Msl})

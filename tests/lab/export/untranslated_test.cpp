@@ -274,6 +274,13 @@ TEST(ExportOfUserCode, WhatMetalsFunctionsDoNotTakeIsToldByItsLine) {
               "x = dot(v, kUp) + float(max(1u, uint(n))); uint u = floatBitsToUint(x); x = uintBitsToFloat(u);");
 }
 
+TEST(ExportOfUserCode, AShiftIsOfTheTypeOfWhatIsShifted) {
+  expectTaken("struct Mine { int i; float a; };\n",
+              "uint u = 1u; int k = max(n >> 1u, 0); Mine m = Mine(n << u, 1.0f); u = max(u << n, 1u); "
+              "x = float(max(k, m.i << u)) + m.a;");
+  expectRefused("", "x = float(max(n << 1u, 1u));", {Language::Msl}, "max of int and uint");
+}
+
 TEST(ExportOfUserCode, OutArgumentsOfMetalAreOfTheirType) {
   expectRefused("void put(out int a) { a = 1; }\n", "put(x);", {Language::Msl}, "another type than int");
   expectRefused("void put(out float a) { a = 1.0f; }\n", "put((v.x)); x = v.x;", {Language::Msl}, "a component");
