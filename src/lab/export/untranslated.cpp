@@ -91,20 +91,38 @@ const Expr& bare(const Expr& e) {
   return e.kind == Expr::Kind::Paren ? bare(e.kids[0]) : e;
 }
 
-// "s.a[]" of s.a[i]; empty of what is no variable.
-std::string pathOf(const Expr& e) {
-  if (e.kind == Expr::Kind::Atom) return isNumber(e) ? "" : e.text;
+using Path = std::vector<std::string>;
+constexpr const char* kAnyElement = "[]";
+
+// "s", ".a", "[1]" of s.a[1], and kAnyElement of s.a[i]; empty of what is no variable.
+Path pathOf(const Expr& e) {
   if (e.kind == Expr::Kind::Paren) return pathOf(e.kids[0]);
-  if (e.kind == Expr::Kind::Member) return pathOf(e.kids[0]) + "." + e.text;
-  return e.kind == Expr::Kind::Index ? pathOf(e.kids[0]) + "[]" : "";
+  if (e.kind == Expr::Kind::Atom) return isNumber(e) ? Path{} : Path{e.text};
+  if (e.kind != Expr::Kind::Member && e.kind != Expr::Kind::Index) return {};
+  Path path = pathOf(e.kids[0]);
+  if (e.kind == Expr::Kind::Member) {
+    path.push_back("." + e.text);
+  } else {
+    const Expr& index = bare(e.kids[1]);
+    const bool isKnown = index.kind == Expr::Kind::Atom && isNumber(index);
+    path.push_back(isKnown ? fmt::format("[{}]", std::strtoull(index.text.c_str(), nullptr, 0)) : kAnyElement);
+  }
+  return path;
 }
 
-// Of paths: the same, or one within the other.
-bool overlap(const std::string& a, const std::string& b) {
-  const auto holds = [](const std::string& of, const std::string& part) {
-    return part.starts_with(of) && (part.size() == of.size() || part[of.size()] == '.' || part[of.size()] == '[');
-  };
-  return !a.empty() && !b.empty() && (holds(a, b) || holds(b, a));
+// Of variables: the same, or one within the other.
+enum class Overlap { None, Perhaps, Sure };
+
+Overlap overlapOf(const Path& a, const Path& b) {
+  if (a.empty() || b.empty()) return Overlap::None;
+  Overlap all = Overlap::Sure;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    if (a[i] == kAnyElement || b[i] == kAnyElement)
+      all = Overlap::Perhaps;
+    else if (a[i] != b[i])
+      return Overlap::None;
+  }
+  return all;
 }
 
 bool isSwizzleOf(const Expr& e, size_t count) {
@@ -382,7 +400,7 @@ class Search {
   }
 
   void checkReferences(const Expr& e, const Decl& called, const Variables& variables) {
-    std::vector<std::string> paths;
+    std::vector<Path> paths;
     for (size_t i = 0; i < std::min(e.kids.size(), called.params.size()); ++i) {
       if (called.params[i].qualifier.empty()) continue;
       const Expr& argument = bare(e.kids[i]);
@@ -396,10 +414,13 @@ class Search {
       if (isPart && isVector(typeOf(argument.kids[0], variables)))
         tell(e.line, fmt::format("a component as the out argument {} of {}", called.params[i].name, e.text),
              "give it a variable");
-      const std::string path = pathOf(argument);
-      for (const std::string& other : paths)
-        if (overlap(path, other))
-          tell(e.line, fmt::format("one variable twice as an out argument of {}", e.text), "give it two");
+      const Path path = pathOf(argument);
+      for (const Path& other : paths)
+        if (const Overlap overlap = overlapOf(path, other); overlap != Overlap::None)
+          tell(e.line,
+               fmt::format("{} twice as an out argument of {}",
+                           overlap == Overlap::Sure ? "one variable" : "what may be one element", e.text),
+               "give it two variables");
       paths.push_back(path);
     }
   }

@@ -179,6 +179,17 @@ TEST(ExportOfUserCode, WhatMetalsReferencesCannotHoldIsToldByItsLine) {
     expectRefused(before, line, {Language::Msl}, "a component");
   for (const char* line : {"swap(x, x);", "Mine m; m.b[0] = x; swap(m.b[0], m.b[n]); x = m.b[0];"})
     expectRefused(before, line, {Language::Msl}, "twice");
+  for (const char* call : {"swap(w[n], w[0]);", "swap(w[0], w[n + 1]);", "swap(w[n], w[n]);"})
+    expectRefused(before, fmt::format("float w[2]; w[0] = w[1] = x; {} x = w[0];", call), {Language::Msl},
+                  "what may be one element twice as an out argument of swap");
+  for (const char* call :
+       {"swap(w[1].a, w[1].a);", "swap(w[1].a, (w[0x1u]).a);", "swap(w[n].a, w[n].a);", "swap(w[1].b[n], w[1].b[0]);"})
+    expectRefused(before, fmt::format("Mine w[2]; w[0].a = w[1].a = x; {} x = w[0].a;", call), {Language::Msl},
+                  mentions(call, "n") ? "may be one element twice" : "one variable twice");
+  expectTaken(before, "float w[2]; w[0] = w[1] = x; swap(w[0], w[1]); swap(w[1u], w[0]); x = w[0];");
+  expectTaken(before,
+              "Mine w[2]; w[0].b[n] = w[1].a = x; swap(w[0].b[n], w[1].b[n]); swap(w[n].a, w[n].b[0]); "
+              "swap(w[0].b[0], w[0].b[1]); x = w[0].a;");
   expectTaken(before, "Mine m; m.a = x; inc(m.a); m.b[0] = x; inc(m.b[0]); both(m.a, m.b[0]); both(x, x); x = m.b[0];");
 }
 
