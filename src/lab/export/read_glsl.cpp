@@ -317,6 +317,7 @@ class Parser {
       Stmt::Case one;
       bool isDefault = false;
       while (is("case") || is("default")) {
+        one.line = lineHere();
         if (takeText() == "case")
           one.labels.push_back(parseTernary());
         else

@@ -53,6 +53,7 @@ struct Stmt {
   struct Case {
     std::vector<Expr> labels;  // none: default
     std::vector<Stmt> body;
+    int line = 0;  // of its last label
   };
   std::vector<Case> cases;
 };

@@ -87,6 +87,13 @@ bool isFloats(const std::string& type) {
   return type == "float" || (isVector(type) && type.starts_with("vec"));
 }
 
+bool endsInBreakOrReturn(const std::vector<Stmt>& body) {
+  if (body.empty()) return false;
+  const Stmt& last = body.back();
+  if (last.kind == Stmt::Kind::Block) return endsInBreakOrReturn(last.body);
+  return last.kind == Stmt::Kind::Break || last.kind == Stmt::Kind::Return;
+}
+
 const Expr& bare(const Expr& e) {
   return e.kind == Expr::Kind::Paren ? bare(e.kids[0]) : e;
 }
@@ -174,6 +181,7 @@ class Search {
       if (!type.empty() && !types.contains(type)) tell(0, type);
     });
     checkDeclarations();
+    if (language_ == Language::Hlsl) checkCases();
     eachUserExpr([&](const Expr& e, const Variables& variables) {
       if (isDouble(e)) tell(e.line, e.text);
       checkNumber(e, variables);
@@ -327,6 +335,19 @@ class Search {
       if (isConstant && !isVector(e.text) && !isScalar(e.text))
         tell(e.line, fmt::format("{} in the value of the constant {}", e.text, decl.name), "write the number");
     });
+  }
+
+  // FXC takes none that goes on in the next.
+  void checkCases() {
+    for (const Decl& decl : program_.decls) {
+      if (decl.file != kUserBiasFile) continue;
+      eachStmt(decl.body, [&](const Stmt& stmt) {
+        for (size_t i = 0; i + 1 < stmt.cases.size(); ++i)
+          if (const Stmt::Case& one = stmt.cases[i]; !one.body.empty() && !endsInBreakOrReturn(one.body))
+            tell(one.line, "a case that does not end in break or return",
+                 "end it with break, or repeat the statements");
+      });
+    }
   }
 
   // Which C++ has no values of.

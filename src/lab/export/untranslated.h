@@ -23,7 +23,8 @@ struct Untranslated {
 //     call, and a structure's of other types than its own; numbers where functions take vectors, and the bits of
 //     vectors; arrays as values; constants that call functions;
 //   - HLSL: what writes to a variable to the right of &&, || and ?, which it always evaluates; structures in ?;
-//     products of matrices; findLSB but as an int.
+//     products of matrices; findLSB but as an int; cases with statements before another case that do not end in break
+//     or return.
 std::optional<Untranslated> firstUntranslated(const Program& program, Language language);
 
 }  // namespace gnomon::code

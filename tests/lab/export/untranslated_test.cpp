@@ -303,6 +303,27 @@ TEST(ExportOfUserCode, StructuresOfAConditionAreToldForHlsl) {
                 {Language::Hlsl}, "? of structures");
 }
 
+// Which FXC refuses.
+TEST(ExportOfUserCode, CasesThatFallThroughAreToldForHlsl) {
+  const std::string what = "a case that does not end in break or return is not translated to HLSL; end it with break";
+  for (const char* cases :
+       {"case 0: x = 1.0f; case 1: x = 2.0f; break;", "case 0: { x = 1.0f; } default: x = 2.0f; break;",
+        "default: if (x > 0.5f) break; case 1: x = 2.0f;", "case 0: { break; } x = 1.0f; case 1: x = 2.0f;",
+        "case 0: switch (n) { case 0: break; } case 1: x = 2.0f;"})
+    expectRefused("", fmt::format("switch (n) {{ {} }}", cases), {Language::Hlsl}, what);
+  expectRefused("", "for (;;) { if (x > 0.5f) { switch (n) { case 0: x = 1.0f; default: x = 2.0f; } } }",
+                {Language::Hlsl}, what);
+  EXPECT_TRUE(refusal(fmt::format("{} {{\n  float x = 1.0f;\n  switch (tap.slice) {{\n  case 0:\n    x = tap.z1;\n    "
+                                  "break;\n  case 1:\n  case 2:\n    x = 2.0f;\n  default:\n    x = 3.0f;\n  }}\n  "
+                                  "return x > 0.5f; }}\n",
+                                  kUserHead),
+                      Language::Hlsl)
+                  .starts_with("mine.glsl:8: " + what));
+  expectTaken("",
+              "switch (n) { case 0: case 1: x = 1.0f; break; case 2: { x = 2.0f; break; } case 3: { x = 3.0f; } break; "
+              "case 4: return true; case 5: { x = 1.0f; { return false; } } case 6: default: x = 4.0f; }");
+}
+
 // Not at the price of its length times its length.
 TEST(ExportOfUserCode, LongExpressionsAreReadOnce) {
   std::string product = "x", all;
