@@ -200,9 +200,16 @@ class Parser {
     return decl;
   }
 
+  // An empty statement is nothing; the comment behind it is of the last.
+  void parseInto(std::vector<Stmt>& body) {
+    if (!is(";")) return body.push_back(parseStmt());
+    const std::string& trailing = take().after;
+    if (!body.empty() && body.back().trailing.empty()) body.back().trailing = trailing;
+  }
+
   std::vector<Stmt> parseUntilBrace() {
     std::vector<Stmt> body;
-    while (!is("}")) body.push_back(parseStmt());
+    while (!is("}")) parseInto(body);
     take();
     return body;
   }
@@ -213,7 +220,9 @@ class Parser {
       take();
       return parseUntilBrace();
     }
-    return {parseStmt()};
+    std::vector<Stmt> body;
+    parseInto(body);
+    return body;
   }
 
   bool startsDeclaration() const {
@@ -325,13 +334,21 @@ class Parser {
         want(":");
       }
       if (isDefault) one.labels.clear();
-      while (!is("case") && !is("default") && !is("}")) one.body.push_back(parseStmt());
+      while (!is("case") && !is("default") && !is("}")) parseInto(one.body);
       openBlock(one.body);
       stmt.cases.push_back(std::move(one));
     }
+    if (!stmt.cases.empty() && stmt.cases.back().body.empty()) stmt.cases.back().body.push_back(breakStmt());
     want("}");
     inner_.clear();
     last_.clear();
+  }
+
+  // Of a last case of empty statements: a label has to have one.
+  static Stmt breakStmt() {
+    Stmt stmt;
+    stmt.kind = Stmt::Kind::Break;
+    return stmt;
   }
 
   // Of a case: its braces go where all but a break is within them.

@@ -81,6 +81,24 @@ TEST(Export, CasesKeepWhatTheyHave) {
   }
 }
 
+TEST(Export, EmptyStatementsAreNothing) {
+  for (const Language language : kLanguages) {
+    const std::string text = exportedOf(
+        fmt::format(
+            "#define TWICE(name) float name(float a) {{ ; return a * 2.0f;; }}\nTWICE(mine);\nconst float kOne = "
+            "1.0f;;\nstruct Own {{ float a; }};;\nfloat same(float a) {{ a += kOne;; return a; }};\n;{} {{ ;\n"
+            "  float x = mine(tap.z1);; // doubled\n  int n = tap.slice;;; {{ ; }} {{ {{}}; x += 0.5f; }};\n"
+            "  if (n > 0) ; else x = 2.0f;\n  if (n > 1) x = 3.0f; else ;\n"
+            "  for (int i = 0; i < 3; ++i) ;\n  while (n++ < 3) ;\n"
+            "  switch (n) {{ case 0: ; x = 1.0f; break;; case 1: ; default: ; }}\n"
+            "  return same(x) > 0.5f;; }};;\n",
+            kUserHead),
+        language);
+    EXPECT_TRUE(mentions(text, "Mine(tap.z1);  // doubled\n")) << text;
+    EXPECT_TRUE(mentions(text, "default:\n      break;\n")) << text;
+  }
+}
+
 // Which HLSL counts as a whole number.
 TEST(Export, SignsAreFloats) {
   EXPECT_TRUE(mentions(exportedBody("  x = sign(x) / 2.0f;", Language::Hlsl), "x = (1.0f * sign(x)) / 2.0f;"));
