@@ -3,6 +3,7 @@
 #include "base/child_channel.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/interrupt.h"
 #include "base/program_place.h"
 
 #include <fcntl.h>
@@ -71,16 +72,19 @@ class Attributes {
   posix_spawnattr_t attributes_{};
 };
 
-// Whether the child has ended, which closes its end of the pipe, in time.
-bool endsInTime(int pipe, int seconds) {
+enum class Ending { OfItsOwn, OutOfTime, Interrupted };
+
+// How the child ends, which closes its end of the pipe. Looks up now and then: a signal may come to another thread.
+Ending endingOf(int pipe, int seconds) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point deadline = Clock::now() + std::chrono::seconds(seconds);
   while (true) {
+    if (isInterrupted()) return Ending::Interrupted;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    if (left <= 0) return Ending::OutOfTime;
     pollfd ended{.fd = pipe, .events = POLLIN, .revents = 0};
-    const int count = ::poll(&ended, 1, static_cast<int>(std::max<long long>(left, 0)));
-    if (count < 0 && errno == EINTR) continue;
-    return count > 0;
+    constexpr long long kLooks = 100;  // milliseconds
+    if (::poll(&ended, 1, static_cast<int>(std::min<long long>(left, kLooks))) > 0) return Ending::OfItsOwn;
   }
 }
 
@@ -95,7 +99,9 @@ std::string runInChild(const ChildWork& work, const ChildLimits& limits) {
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw noProcess(std::strerror(errno));
   const Descriptor ended(ends[0]);
   Descriptor held(ends[1]);
-  const Descriptor input(::memfd_create("gnomon-input", MFD_CLOEXEC));
+  const bool isFile = work.inputFile >= 0;
+  const Descriptor input(isFile ? ::fcntl(work.inputFile, F_DUPFD_CLOEXEC, 0)
+                                : ::memfd_create("gnomon-input", MFD_CLOEXEC));
   const Descriptor result(::memfd_create("gnomon-result", MFD_CLOEXEC));
   const Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
   Descriptor heldByChild = aboveTheChilds(held.get());
@@ -103,7 +109,7 @@ std::string runInChild(const ChildWork& work, const ChildLimits& limits) {
                    nowhereOfChild = aboveTheChilds(nowhere.get());
   if (!heldByChild.isOpen() || !inputOfChild.isOpen() || !resultOfChild.isOpen() || !nowhereOfChild.isOpen())
     throw noProcess(std::strerror(errno));
-  if (!writeAll(input.get(), work.input)) throw noProcess(std::strerror(errno));
+  if (!isFile && !writeAll(input.get(), work.input)) throw noProcess(std::strerror(errno));
 
   Actions actions;
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) actions.give(nowhereOfChild, stream);
@@ -124,21 +130,29 @@ std::string runInChild(const ChildWork& work, const ChildLimits& limits) {
   held = Descriptor();
   heldByChild = Descriptor();
 
-  const bool inTime = endsInTime(ended.get(), 4 * limits.seconds);
-  if (!inTime) ::kill(child, SIGKILL);
+  const Ending ending = endingOf(ended.get(), 4 * limits.seconds);
+  if (ending != Ending::OfItsOwn) ::kill(child, SIGKILL);
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  pid_t waited = 0;
+  do waited = ::waitpid(child, &status, 0);
+  while (waited < 0 && errno == EINTR);
+  if (ending == Ending::Interrupted) throw Interrupted();
   const std::string bytes = readAll(result.get());
-  const bool isOutOfTime = !inTime || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU);
-  if (isOutOfTime)
+  const auto isEndedBy = [&](int signal) { return WIFSIGNALED(status) && WTERMSIG(status) == signal; };
+  if (ending == Ending::OutOfTime || isEndedBy(SIGXCPU))
     throw fileError(work.file, fmt::format("takes more than {} s to read", limits.seconds),
                     "use a smaller or simpler one");
   if (bytes.empty())
     throw noProcess(fmt::format("{} ends before it begins: there may be too little memory", work.program));
+  if (isEndedBy(SIGKILL))
+    throw fileError(work.file, fmt::format("its reader, {}, was killed", work.program),
+                    "there may be too little memory");
   if (WIFSIGNALED(status))
     throw fileError(work.file, fmt::format("is damaged: it crashes its reader ({})", ::strsignal(WTERMSIG(status))),
                     "use another file");
+  // Where this process ignores SIGCHLD nobody is told how another ended.
+  if (waited < 0 && bytes.front() == static_cast<char>(ChildOutcome::Begun))
+    throw fileError(work.file, fmt::format("{} ended without an answer", work.program), "use another file");
   const auto outcome = WEXITSTATUS(status) == 0 ? static_cast<ChildOutcome>(bytes.front()) : ChildOutcome::OutOfMemory;
   if (outcome == ChildOutcome::Done) return bytes.substr(1);
   if (outcome == ChildOutcome::Failed) throw WorldError(bytes.substr(1));

@@ -25,11 +25,13 @@ struct ChildWork {
   std::string name;                    // one of those that the program has
   std::vector<std::string> arguments;  // without zero bytes
   std::string_view input = {};
+  int inputFile = -1;   // in place of `input`: a regular file, read from its beginning
   std::string program;  // by its path, or looked for as findProgram (base/program_place.h) does
 };
 
-// What the work returns. Throws what it throws, as WorldError of the same text; and of limits that are exceeded, or a
-// crash, one that names the file. Whoever trusts no byte of a file trusts none of what is returned either.
+// What the work returns. Throws what it throws, as WorldError of the same text; of limits that are exceeded, or a
+// crash, one that names the file; and Interrupted (base/interrupt.h). Whoever trusts no byte of a file trusts none of
+// what is returned either.
 std::string runInChild(const ChildWork& work, const ChildLimits& limits);
 
 // For the program itself: its works by their names, of which it does the one that it was started for. It may print

@@ -1,11 +1,13 @@
 #include "base/error.h"
 
+#include "base/message.h"
+
 #include <fmt/format.h>
 
 namespace gnomon {
 
 WorldError fileError(const std::string& path, const std::string& what, const std::string& remedy) {
-  return WorldError(fmt::format("{}: {}; {}", path, what, remedy));
+  return WorldError(fmt::format("{}: {}; {}", printable(path), what, remedy));
 }
 
 }  // namespace gnomon

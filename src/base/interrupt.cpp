@@ -34,6 +34,7 @@ InterruptGuard::InterruptGuard() {
 }
 
 InterruptGuard::~InterruptGuard() {
+  interrupted = false;
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction old = {};
     if (::sigaction(signal, nullptr, &old) == 0 && old.sa_handler == remember) std::signal(signal, SIG_DFL);

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/message.h"
 #include "gpu/glsl_comments.h"
 #include "gpu/glsl_words.h"
 
@@ -27,7 +28,7 @@ std::string trimmed(const std::string& text) {
 }
 
 WorldError lineError(const UserBias& bias, int line, const std::string& what, const std::string& remedy) {
-  return WorldError(fmt::format("{}:{}: {}; {}", bias.path, line, what, remedy));
+  return WorldError(fmt::format("{}:{}: {}; {}", printable(bias.path), line, what, remedy));
 }
 
 Unit parseUnit(const UserBias& bias, int line, const std::string& word) {
@@ -260,17 +261,34 @@ std::string knobConstant(const std::string& knob) {
   return constant;
 }
 
+namespace {
+
+// The file, and behind it none of its macros: what is included after it has names of its own.
+std::string withMacrosOfItsOwn(const std::string& source) {
+  std::string undefined;
+  std::set<std::string> names;
+  const std::vector<gpu::Word> words = gpu::wordsOf(source);
+  for (size_t i = 2; i < words.size(); ++i)
+    if (words[i - 2].text == "#" && words[i - 1].text == "define" && words[i].isName() &&
+        names.insert(words[i].text).second)
+      undefined += fmt::format("#undef {}\n", words[i].text);
+  return undefined.empty() ? source : source + "\n\n" + undefined;  // a backslash may stand at its end
+}
+
+}  // namespace
+
 gpu::ShaderSource shaderWith(const char* path, const UserBias* bias) {
   if (bias == nullptr) return {path, {}};
   return {path,
-          {{std::string(kUserBiasFile), withoutLineDirectives(bias->source)},
+          {{std::string(kUserBiasFile), withoutLineDirectives(withMacrosOfItsOwn(bias->source))},
            {std::string(kUserKnobsFile), bias->knobsGlsl}}};
 }
 
 // The compiler knows the file by the name it takes the place of.
 std::string inUsersWords(std::string message, const UserBias& bias) {
-  for (size_t at = 0; (at = message.find(kUserBiasFile, at)) != std::string::npos; at += bias.path.size())
-    message.replace(at, kUserBiasFile.size(), bias.path);
+  const std::string path = printable(bias.path);
+  for (size_t at = 0; (at = message.find(kUserBiasFile, at)) != std::string::npos; at += path.size())
+    message.replace(at, kUserBiasFile.size(), path);
   return message;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/child.h"
 #include "base/error.h"
+#include "base/message.h"
 #include "gpu/glsl_words.h"
 #include "gpu/program.h"
 #include "gpu/shader_compiler.h"
@@ -57,17 +58,33 @@ class LoopSearch {
   }
   size_t behindStatement(size_t i) const {
     if (is(i, "{")) return behind(i, "{", "}");
+    if (is(i, "do")) return behind(behindStatement(i + 1) + 1, "(", ")") + 1;
+    if (is(i, "for") || is(i, "while") || is(i, "switch")) return behindStatement(behind(i + 1, "(", ")"));
+    if (is(i, "if")) {
+      const size_t then = behindStatement(behind(i + 1, "(", ")"));
+      return is(then, "else") ? behindStatement(then + 1) : then;
+    }
     while (i < words_.size() && !is(i, ";")) ++i;
     return i + 1;
   }
   bool isTrue(size_t begin, size_t end) const {
+    while (is(begin, "(") && behind(begin, "(", ")") == end) ++begin, --end;
     return end == begin + 1 &&
            (is(begin, "true") ||
             (std::isdigit(static_cast<unsigned char>(words_[begin].text[0])) != 0 && !is(begin, "0")));
   }
+  // Out of the loop that this is in: a break within another loop or a switch only ends that.
   bool hasExit(size_t begin, size_t end) const {
-    for (size_t i = begin; i < std::min(end, words_.size()); ++i)
+    end = std::min(end, words_.size());
+    for (size_t i = begin; i < end; ++i) {
       if (is(i, "break") || is(i, "return") || is(i, "discard")) return true;
+      const bool isLoop = is(i, "for") || is(i, "while") || is(i, "do");
+      if (!isLoop && !is(i, "switch")) continue;
+      size_t within = is(i, "do") ? i + 1 : behind(i + 1, "(", ")");
+      for (const size_t after = std::min(behindStatement(within), end); within < after; ++within)
+        if (is(within, "return") || is(within, "discard")) return true;
+      i = within - 1;
+    }
     return false;
   }
   bool isEndless(size_t i) const {
@@ -85,7 +102,7 @@ class LoopSearch {
   }
   bool isEndlessDo(size_t i) const {
     const size_t end = behindStatement(i + 1);
-    return is(end, "while") && isTrue(end + 2, behind(end + 1, "(", ")") - 1) && !hasExit(i, end);
+    return is(end, "while") && isTrue(end + 2, behind(end + 1, "(", ")") - 1) && !hasExit(i + 1, end);
   }
 
   std::vector<gpu::Word> words_;
@@ -159,7 +176,7 @@ int lineOf(const std::string& source, const std::string& word, const char* next 
   throw WorldError(
       fmt::format("{}:{}: '{}' is a resource that nobody gives a bias; what it needs beside the map is a "
                   "parameter (//! knob:) or a constant",
-                  bias.path, std::max(lineOf(bias.source, word), 1), word));
+                  printable(bias.path), std::max(lineOf(bias.source, word), 1), word));
 }
 
 // Buffers, textures and images that Gnomon's own shader does not have.
@@ -181,7 +198,7 @@ void explainLinkError(const UserBias& bias, const std::string& message) {
   while (begin < message.size() && message[begin] == ' ') ++begin;
   const std::string function = message.substr(begin, message.find('(', begin) - begin);
   throw WorldError(fmt::format("{}:{}: '{}' calls itself, perhaps by way of another function; GLSL has no recursion",
-                               bias.path, lineOf(bias.source, function, "("), function));
+                               printable(bias.path), lineOf(bias.source, function, "("), function));
 }
 
 void checkText(const UserBias& bias) {
@@ -189,7 +206,7 @@ void checkText(const UserBias& bias) {
   for (size_t i = 0; i + 2 < words.size(); ++i)
     if (words[i].text == "#" && words[i + 1].text == "define" && words[i + 2].text == "main")
       throw WorldError(fmt::format("{}:{}: 'main' is the shader's that calls the bias; give the macro another name",
-                                   bias.path, words[i].line));
+                                   printable(bias.path), words[i].line));
   if (std::ranges::none_of(words, [](const gpu::Word& one) { return one.text == "userLit"; }))
     throw fileError(bias.path, "has no function userLit",
                     "define bool userLit(ShadowMap map, BiasParams params, Receiver receiver, Tap tap)");
@@ -197,7 +214,7 @@ void checkText(const UserBias& bias) {
     throw WorldError(fmt::format(
         "{}:{}: nothing ends this loop, and then Vulkan may do anything: lose the device, or go on with any result; "
         "give it a break",
-        bias.path, line));
+        printable(bias.path), line));
 }
 
 // Texts that have passed, with where the shaders around them come from: a change that is taken back, or a session that

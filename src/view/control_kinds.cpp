@@ -5,6 +5,7 @@
 #include "base/suggest.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,6 +45,13 @@ void checkChoice(const std::string& name, const std::string& text, const std::ve
   if (std::ranges::find(choices, text) == choices.end())
     throw UsageError(fmt::format("{} {}: no such choice; {}", name, text,
                                  chooseFrom(text, fmt::format("{}", fmt::join(choices, ", ")))));
+}
+
+void checkNoStream(const std::string& path) {
+  std::error_code failure;
+  const std::filesystem::file_status status = std::filesystem::status(path, failure);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw UsageError(path + ": is no regular file; name one");
 }
 
 Control numberControl(Control control, const Place<double>& place) {

@@ -23,6 +23,7 @@ Control textControl(Control control, const Place<std::string>& place);
 // Throw UsageError.
 double numberIn(const std::string& name, const std::string& text, double lower, double upper, const std::string& unit);
 void checkChoice(const std::string& name, const std::string& text, const std::vector<std::string>& choices);
+void checkNoStream(const std::string& path);  // a pipe, which would be waited for, or a folder
 
 // scene_controls.cpp
 void addScene(std::vector<Control>& controls);

@@ -67,6 +67,7 @@ void takeKnobs(KnobChoices& choices, const BiasMethod& before, const BiasMethod&
 // A bias of the list, or of a file that the side has; a name that ends in .glsl is read.
 void setBias(CompareOptions& options, const std::string& text, const std::string& control) {
   if (text.ends_with(".glsl")) {
+    checkNoStream(text);
     std::shared_ptr<const UserBias> user = loadUserBias(text);
     const auto isKnown = [&](const auto& other) { return other->path == user->path && other->source == user->source; };
     if (const auto known = std::ranges::find_if(options.userBiases, isKnown); known != options.userBiases.end()) {

@@ -50,6 +50,7 @@ void addScene(std::vector<Control>& controls) {
   controls.back().set = [](ViewState& state, const std::string& text) {
     if (text.empty()) throw UsageError("scene is empty; name a generated scene or a glTF file");
     if (text == state.setup.scene) return;
+    checkNoStream(text);
     // Another scene has other lights and cameras.
     const std::string size = state.setup.size;
     state.setup = {.scene = text, .size = size};

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image.h"
+#include "view/control_kinds.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -85,9 +86,7 @@ std::string ViewWindow::getControl(std::string name) {
 }
 
 void ViewWindow::openFile(const std::string& path) {
-  // A pipe would be waited for.
-  if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
-    throw UsageError(path + ": is no regular file; drop one");
+  checkNoStream(path);
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".gltf" || extension == ".glb") {
     setControl("scene", path);

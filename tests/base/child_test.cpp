@@ -2,6 +2,7 @@
 #include "base/child.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/interrupt.h"
 #include "base/program_place.h"
 #include "base/sanitizers.h"
 #include "tests/base/places.h"
@@ -63,6 +64,50 @@ TEST(ChildTest, ACrashNamesTheFileAndPrintsNothing) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_NE(message.find("file.x: is damaged: it crashes its reader (Segmentation fault)"), std::string::npos)
       << message;
+}
+
+// As by the kernel, where memory ends: the file is not to blame.
+TEST(ChildTest, WhereItIsKilledThatIsTold) {
+  const ChildLimits limits{.bytes = 256 << 20, .seconds = 5, .usesFiles = true};  // and it may signal
+  try {
+    made("be killed", {}, {}, limits);
+    FAIL();
+  } catch (const WorldError& error) {
+    EXPECT_NE(std::string(error.what()).find("was killed; there may be too little memory"), std::string::npos)
+        << error.what();
+  }
+}
+
+// As some that start programs leave it: then nobody is told how a process ends.
+TEST(ChildTest, ItsEndIsSeenWhereNobodyIsToldOfEnds) {
+  std::signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(made("echo", {"word"}), "word|");
+  const std::string message = messageOf("crash");
+  std::signal(SIGCHLD, SIG_DFL);
+  EXPECT_NE(message.find("file.x: "), std::string::npos) << message;
+  EXPECT_NE(message.find("ended without an answer"), std::string::npos) << message;
+}
+
+TEST(ChildTest, ReadsAFileWhereverItsDescriptorStands) {
+  const test::TemporaryFolder folder;
+  writeTextFile(folder.path() / "in", "a file's bytes");
+  const Descriptor in(::open((folder.path() / "in").c_str(), O_RDONLY));
+  ::lseek(in.get(), 3, SEEK_SET);
+  EXPECT_EQ(
+      runInChild({.file = "in", .name = "echo", .arguments = {}, .inputFile = in.get(), .program = kProgram}, kLimits),
+      "a file's bytes");
+}
+
+TEST(ChildTest, AnInterruptEndsIt) {
+  const InterruptGuard guard;
+  std::thread hand([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    ::kill(::getpid(), SIGINT);
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW(made("wait", {}, {}, {.bytes = 256 << 20, .seconds = 60}), Interrupted);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+  hand.join();
 }
 
 // What damage in a file may make a library do: nothing of it reaches beyond the child.

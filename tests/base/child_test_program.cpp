@@ -38,6 +38,11 @@ std::string complainOddly(const Words& words, std::string) {
   throw std::runtime_error(words.at(0));
 }
 
+std::string beKilled(const Words&, std::string) {
+  std::raise(SIGKILL);
+  return "";
+}
+
 std::string crash(const Words&, std::string) {
   std::fputs("a library's last words\n", stderr);
   std::fflush(stderr);
@@ -92,6 +97,7 @@ int main(int argc, char** argv) {
                              {"complain", complain},
                              {"complain oddly", complainOddly},
                              {"crash", crash},
+                             {"be killed", beKilled},
                              {"compute", compute},
                              {"wait", wait},
                              {"fill", fill},

@@ -144,9 +144,10 @@ TEST_F(UserBiasTest, OnlyItsOwnLineDirectivesAreBlanked) {
   };
   EXPECT_EQ(compiled("a;\n# line 5 \"b\"\r\nc;\n"), "a;\n" + std::string(12, ' ') + "\r\nc;\n");
   EXPECT_EQ(compiled("/* x */#line 5 /* y\n*/ a;"), "/* x */" + std::string(8, ' ') + "/* y\n*/ a;");
-  for (const char* kept : {"// #line 5\n", "/*\n#line 5\n*/", "// \\\n#line 5\n", "#line x\n", "a #line 5\n",
-                           "# /* x */ line 5\n", "#define A \\\n#line 5\n"})
+  for (const char* kept :
+       {"// #line 5\n", "/*\n#line 5\n*/", "// \\\n#line 5\n", "#line x\n", "a #line 5\n", "# /* x */ line 5\n"})
     EXPECT_EQ(compiled(kept), kept);
+  EXPECT_EQ(compiled("#define A \\\n#line 5\n"), "#define A \\\n#line 5\n\n\n#undef A\n");
 }
 
 TEST_F(UserBiasTest, WhatWouldCrashTheCompilerOrNeverEndIsRefused) {
@@ -166,6 +167,7 @@ TEST_F(UserBiasTest, WhatWouldCrashTheCompilerOrNeverEndIsRefused) {
     EXPECT_NE(message.find(what), std::string::npos) << message << "\nof\n" << (before + body).substr(0, 200);
   };
   EXPECT_EQ(complaint("", ""), "");
+  EXPECT_EQ(complaint("#define width 4\n#define offset(x) x\n#define offset2 \\\n 3\n", ""), "");  // no other file's
   std::string sum = "float x = tap.z1";
   for (int i = 0; i < 20'000; ++i) sum += "+tap.z1";
   expectComplaint("", sum + ";", "mine.glsl: ");
@@ -196,13 +198,19 @@ TEST_F(UserBiasTest, WhatWouldCrashTheCompilerOrNeverEndIsRefused) {
 }
 
 TEST(EndlessLoop, IsToldFromOnesThatEnd) {
-  for (const char* endless : {"while (true) { x; }", "while(1) x;", "for (;;) { a(b); }", "for (int i = 0; ; ++i) x;",
-                              "do { x; } while (true);", "for (int i = 0; true; ++i) { while (i < 3) ++i; }",
-                              "/* \n break; */ while (true) { } // break"})
+  for (const char* endless :
+       {"while (true) { x; }", "while(1) x;", "for (;;) { a(b); }", "for (int i = 0; ; ++i) x;",
+        "do { x; } while (true);", "for (int i = 0; true; ++i) { while (i < 3) ++i; }",
+        "/* \n break; */ while (true) { } // break", "while ((true)) x;",
+        "while (true) { for (;x < 3;) { if (a) break; } }", "for (;;) { switch (x) { case 0: break; default: x; } }"})
     EXPECT_GT(endlessLoop(endless), 0) << endless;
-  for (const char* fine : {"while (x < 3) { x; }", "for (;;) { if (a) break; }", "while (true) { return 1; }",
-                           "for (int i = 0; i < 3; ++i) x;", "do { x; } while (x < 3);", "// while (true) {}",
-                           "do { if (a) break; } while (true);", "float forever; whiles(true);", ""})
+  for (const char* fine :
+       {"while (x < 3) { x; }", "for (;;) { if (a) break; }", "while (true) { return 1; }",
+        "for (int i = 0; i < 3; ++i) x;", "do { x; } while (x < 3);", "// while (true) {}",
+        "do { if (a) break; } while (true);", "while (true) { for (; x < 3;) x; break; }",
+        "for (;;) { do { x; } while (x < 3); break; }", "while (true) { switch (x) { case 0: return 1; } }",
+        "while (true) if (a) { b; break; }", "for (;;) if (a) b; else break;",
+        "for (;;) do { if (a) return 1; } while (b);", "float forever; whiles(true);", ""})
     EXPECT_EQ(endlessLoop(fine), 0) << fine;
   EXPECT_EQ(endlessLoop("a;\n/*\n*/ b;\nfor (;;) {}"), 4);
 }

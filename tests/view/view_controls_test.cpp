@@ -8,6 +8,8 @@
 #include "tests/base/temporary_folder.h"
 #include "view/file_check.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <chrono>
 #include <set>
@@ -222,6 +224,17 @@ TEST(ViewControls, ADroppedBiasIsCheckedBesideTheWindow) {
   const FileCheck broken(session, state);
   while (!broken.isDone()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_THROW(broken.rethrow(), WorldError);
+}
+
+// Which would be waited for: nobody may ever write into it.
+TEST(ViewControls, NoPipeIsRead) {
+  const test::TemporaryFolder folder;
+  ViewState state = stateOf("corner");
+  for (const auto& [control, name] : {std::pair{"scene", "p.gltf"}, std::pair{"a.bias", "p.glsl"}}) {
+    const std::string pipe = (folder.path() / name).string();
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THROW(set(state, viewControls(nullptr, state), control, pipe), UsageError) << pipe;
+  }
 }
 
 // Nothing is a number of its own.

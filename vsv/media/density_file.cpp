@@ -6,6 +6,10 @@
 #include "base/message.h"
 #include "vsv/vdb_archive.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -209,18 +213,19 @@ DensityFile readDensityFile(const std::string& fileAndGrid) {
   const Named named = splitName(fileAndGrid);
   std::error_code failure;
   if (!fs::is_regular_file(named.path, failure)) throw fileError(named.path, "there is no such file", "check the name");
-  std::string bytes = readFile(named.path);
-  const uint64_t size = bytes.size();
+  const Descriptor input(::open(named.path.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat status = {};
+  if (!input.isOpen() || ::fstat(input.get(), &status) != 0)
+    throw fileError(named.path, "cannot be read", std::strerror(errno));
+  const auto size = static_cast<uint64_t>(status.st_size);
   const ChildLimits limits{.bytes = kBytesAlways + kBytesPerByte * size,
                            .seconds = kSecondsAlways + static_cast<int>(size / kBytesPerSecond)};
-  const std::string packed = runInChild({.file = named.path,
-                                         .name = kDensityWork,
-                                         .arguments = {named.path, named.grid},
-                                         .input = bytes,
-                                         .program = "gnomon-reader"},
-                                        limits);
-  bytes = {};
-  return unpacked(named, packed);
+  const ChildWork work{.file = named.path,
+                       .name = kDensityWork,
+                       .arguments = {named.path, named.grid},
+                       .inputFile = input.get(),
+                       .program = "gnomon-reader"};
+  return unpacked(named, runInChild(work, limits));
 }
 
 std::string packedDensity(const std::vector<std::string>& pathAndGrid, std::string bytes) {
