@@ -48,6 +48,7 @@ void MacroExpansion::set(const std::string& name, Macro macro) {
 
 void MacroExpansion::remove(const std::string& name) {
   expandWaiting();
+  if (waiting_.size() > 1 && waiting_.back().token.text == name) failCall(waiting_.back().token);
   macros_.erase(name);
 }
 

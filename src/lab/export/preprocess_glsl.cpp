@@ -268,7 +268,7 @@ class Preprocessor {
     } else if (what == "define") {
       define(text, tokens);
     } else if (what == "undef") {
-      macros_.remove(nameIn(tokens));
+      if (const std::string name = nameIn(tokens); !kept_.contains(name)) macros_.remove(name);
     } else if (what != "version" && what != "extension") {  // C++ has #include
       failDirective(what);
     }
@@ -310,7 +310,7 @@ class Preprocessor {
   }
 
   MacroExpansion macros_;
-  std::set<std::string> kept_;  // that a #define does not replace
+  std::set<std::string> kept_;  // that no directive replaces
   std::vector<Condition> conditions_;
   std::vector<std::string> pending_, head_;
   std::vector<std::pair<std::string, std::vector<std::string>>> heads_;
