@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -34,6 +35,13 @@ void ringed(ImDrawList& list, ImVec2 at, float radius, ImU32 color) {
 void outlined(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 color) {
   list.AddLine(from, to, kBlack, 4.0f);
   list.AddLine(from, to, color, 2.0f);
+}
+
+// To be read on white, too.
+void outlinedText(ImDrawList& list, ImVec2 at, const char* text) {
+  for (const auto& [dx, dy] : {std::pair{-1.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, -1.0f}, {0.0f, 1.0f}})
+    list.AddText(ImVec2(at.x + dx, at.y + dy), kBlack, text);
+  list.AddText(at, kWhite, text);
 }
 
 }  // namespace
@@ -234,7 +242,7 @@ void ViewWindow::drawGizmo() {
       outlined(list, middle, end, kAxes[axis]);
       list.AddCircleFilled(end, 4.0f * scale_, kAxes[axis]);
       const char name[2] = {"xyz"[axis], '\0'};
-      list.AddText(ImVec2(end.x + 5.0f, end.y - 6.0f), kWhite, name);
+      outlinedText(list, ImVec2(end.x + 5.0f, end.y - 6.0f), name);
     }
     if (light.type != LightType::Directional) ringed(list, middle, 7.0f * scale_, kYellow);
   }

@@ -131,6 +131,7 @@ TEST_F(DensityGridTest, WhatCannotBeReadIsSaidInOneLine) {
     return grid;
   };
   EXPECT_NE(mistake(path("nowhere.vdb")).find("no such file"), std::string::npos);
+  EXPECT_NE(mistake(path(".")).find("is no regular file; name one"), std::string::npos);
   {
     std::FILE* file = std::fopen(path("text.vdb").c_str(), "w");
     std::fputs("this is no grid\n", file);

@@ -212,7 +212,8 @@ DensityFile unpacked(const Named& named, const std::string& bytes) {
 DensityFile readDensityFile(const std::string& fileAndGrid) {
   const Named named = splitName(fileAndGrid);
   std::error_code failure;
-  if (!fs::is_regular_file(named.path, failure)) throw fileError(named.path, "there is no such file", "check the name");
+  if (!fs::exists(named.path, failure)) throw fileError(named.path, "there is no such file", "check the name");
+  if (!fs::is_regular_file(named.path, failure)) throw fileError(named.path, "is no regular file", "name one");
   const Descriptor input(::open(named.path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status = {};
   if (!input.isOpen() || ::fstat(input.get(), &status) != 0)
