@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <set>
 #include <thread>
 
@@ -214,15 +215,21 @@ TEST(ViewControls, ADroppedBiasIsCheckedBesideTheWindow) {
   writeTextFile(file, glsl);
   EXPECT_TRUE(FileCheck::isFor(file));
   const ViewState state = stateOf("corner");
+  const auto wait = [](const FileCheck& check) {
+    while (!check.isDone()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
   const FileCheck check(file, state);
-  EXPECT_FALSE(check.isDone());
-  while (!check.isDone()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  wait(check);
   EXPECT_NO_THROW(check.rethrow());
+  // A pipe is read as long as nobody has written into it.
   const std::string session = (folder.path() / "s.json").string();
-  writeTextFile(session, R"({"gnomon_view": 1, "a.bias": "nonsense.glsl"})");
   writeTextFile(folder.path() / "nonsense.glsl", "nonsense\n");
+  ASSERT_EQ(::mkfifo(session.c_str(), 0600), 0);
   const FileCheck broken(session, state);
-  while (!broken.isDone()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_FALSE(broken.isDone());
+  std::ofstream(session) << R"({"gnomon_view": 1, "a.bias": "nonsense.glsl"})";
+  wait(broken);
   EXPECT_THROW(broken.rethrow(), WorldError);
 }
 
