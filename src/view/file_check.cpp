@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <exception>
+#include <system_error>
 #include <thread>
 
 namespace gnomon {
@@ -33,14 +34,19 @@ bool FileCheck::isFor(const std::string& path) {
 }
 
 FileCheck::FileCheck(const std::string& path, const ViewState& state) : outcome_(std::make_shared<Outcome>()) {
-  std::thread([path, state, outcome = outcome_] {
+  const auto work = [path, state, outcome = outcome_] {
     try {
       check(path, state);
     } catch (...) {
       outcome->problem = std::current_exception();
     }
     outcome->isDone = true;
-  }).detach();
+  };
+  try {
+    std::thread(work).detach();
+  } catch (const std::system_error&) {  // there are too many
+    work();
+  }
 }
 
 bool FileCheck::isDone() const {
